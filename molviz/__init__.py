@@ -1,0 +1,1 @@
+"""Exact vector drawings and exact numbers of anything made of spheres."""

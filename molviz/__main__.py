@@ -1,0 +1,5 @@
+"""Runs the command line as ``python -m molviz``."""
+
+from molviz.cli import main
+
+main()

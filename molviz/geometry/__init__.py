@@ -1,0 +1,1 @@
+"""Space without an eye: grid index, circles, free arcs, union boundary, measures."""

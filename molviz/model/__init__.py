@@ -1,0 +1,1 @@
+"""What is there: molecules, spheres, elements and radii, selection."""

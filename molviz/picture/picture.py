@@ -1,0 +1,69 @@
+"""The display list: everything a writer needs to know, and nothing about where it came from."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from molviz.picture.arcs import Paths
+
+Color: TypeAlias = tuple[int, int, int]  # sRGB, 0 to 255 each
+
+
+@dataclass(frozen=True)
+class Mark:
+    """What a shape stands for, where a format can say so.
+
+    ``groups`` are (name, css class) pairs from the outside in, for example ``(("A", "chain"), ("CYS 32", "residue"))``;
+    shapes that follow each other with a common prefix belong into the same nested groups. Names come from files:
+    writers escape them.
+    """
+
+    id: str
+    title: str = ""
+    classes: tuple[str, ...] = ()
+    groups: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True)
+class FillLayer:
+    """Filled shapes, painted in order; one colour and one mark per shape.
+
+    ``spread`` is the width of a stroke in the fill's own colour that closes the hairline which viewers that
+    anti-alias leave between neighbours, in points; 0 for none.
+    """
+
+    name: str
+    paths: Paths
+    color: Sequence[Color]
+    mark: Sequence[Mark]
+    spread: float = 0.0
+
+
+@dataclass(frozen=True)
+class StrokeLayer:
+    """Stroked paths of one colour and width in points, with round caps and joins."""
+
+    name: str
+    paths: Paths
+    width: float
+    color: Color = (0, 0, 0)
+    mark: Sequence[Mark] = ()  # empty, or one per shape
+
+
+Layer: TypeAlias = FillLayer | StrokeLayer
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A page of ``width`` × ``height`` points, y up, origin in the lower left corner; layers in painting order.
+
+    ``box`` is the tight bounding box of everything painted (x0, y0, x1, y1), line widths included.
+    """
+
+    width: float
+    height: float
+    box: tuple[float, float, float, float]
+    layers: Sequence[Layer]
+    title: str = ""
+    background: Color | None = None
+    description: str = field(default="", kw_only=True)

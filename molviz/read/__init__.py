@@ -1,0 +1,1 @@
+"""Files become molecules: one reader per format, chosen by content and suffix."""

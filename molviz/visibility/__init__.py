@@ -1,0 +1,1 @@
+"""What the eye sees: view, painter's pieces, hidden lines, visibility map."""

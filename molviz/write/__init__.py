@@ -1,0 +1,1 @@
+"""A picture becomes bytes: one writer per format, chosen by suffix."""
