@@ -1,0 +1,68 @@
+"""Circles in space, ``p(θ) = center + a cos θ + b sin θ`` with perpendicular a, b as long as the radius."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from molviz.arrays import Floats, Ints
+from molviz.model.spheres import Spheres
+
+
+class Circles(NamedTuple):
+    """m circles on spheres; ``a × b`` points from the centre of ``first`` towards that of ``second``.
+
+    ``second`` is −1 for a horizon, where a × b points towards the eye.
+    """
+
+    first: Ints  # (m,)
+    second: Ints  # (m,)
+    center: Floats  # (m, 3)
+    a: Floats  # (m, 3)
+    b: Floats  # (m, 3)
+
+    def at(self, circle: Ints, angle: Floats) -> Floats:
+        """Return the points (k, 3) at the given angles of the given circles."""
+        return self.center[circle] + (
+            self.a[circle] * np.cos(angle)[:, None] + self.b[circle] * np.sin(angle)[:, None]
+        )
+
+    def take(self, rows: Ints) -> "Circles":
+        """Return the given circles, in that order."""
+        return Circles(self.first[rows], self.second[rows], self.center[rows], self.a[rows], self.b[rows])
+
+
+def perpendicular(axis: Floats) -> tuple[Floats, Floats]:
+    """Return unit vectors e, f (m, 3) so that e, f and the given unit axes form right-handed frames.
+
+    The frame of Duff et al. 2017, "Building an orthonormal basis, revisited": smooth but for one pole each.
+    """
+    x, y, z = axis.T
+    sign = np.where(z >= 0, 1.0, -1.0)
+    p = -1.0 / (sign + z)
+    q = x * y * p
+    e = np.stack([1.0 + sign * x * x * p, sign * q, -sign * x], axis=1)
+    f = np.stack([q, sign + y * y * p, -y], axis=1)
+    return e, f
+
+
+def circles_about(first: Ints, second: Ints, center: Floats, axis: Floats, radius: Floats) -> Circles:
+    """Return circles of the given centres (m, 3), unit axes (m, 3) and radii (m,)."""
+    e, f = perpendicular(axis)
+    return Circles(first, second, center, e * radius[:, None], f * radius[:, None])
+
+
+def creases(spheres: Spheres, first: Ints, second: Ints) -> tuple[Circles, Ints]:
+    """Return the circles in which the given pairs of spheres meet, and the pairs' rows that do meet in one.
+
+    The radical plane lies at ``t = (d² + ri² − rj²) / 2d`` from ci towards cj; the radius is ``√(ri² − t²)``. Pairs
+    that are nested or concentric have no circle.
+    """
+    between = spheres.center[second] - spheres.center[first]
+    distance = np.linalg.norm(between, axis=1)
+    own, other = spheres.radius[first], spheres.radius[second]
+    rows = np.flatnonzero((distance > np.abs(own - other)) & (distance < own + other))
+    axis = between[rows] / distance[rows, None]
+    along = (distance[rows] + (own[rows] - other[rows]) * (own[rows] + other[rows]) / distance[rows]) / 2
+    radius = np.sqrt(np.maximum((own[rows] - along) * (own[rows] + along), 0.0))
+    center = spheres.center[first[rows]] + axis * along[:, None]
+    return circles_about(first[rows], second[rows], center, axis, radius), rows

@@ -1,0 +1,31 @@
+"""Ragged tables: ranges become rows, rows become lists."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from molviz.arrays import Ints
+
+
+def expand(begin: Ints, end: Ints) -> tuple[Ints, Ints]:
+    """Return all (q, k) with begin[q] ≤ k < end[q], ordered by q then k."""
+    length = np.maximum(end - begin, 0)
+    owner = np.repeat(np.arange(len(length)), length)
+    first_row = np.cumsum(length) - length
+    return owner, np.arange(len(owner)) + (begin - first_row)[owner]
+
+
+def blocks(size: Ints, limit: int) -> Iterator[slice]:
+    """Cut items of the given sizes into consecutive slices of at most ``limit`` in total (or one item)."""
+    total = np.cumsum(size)
+    begin = 0
+    while begin < len(size):
+        done = total[begin - 1] if begin else 0
+        end = max(int(np.searchsorted(total, done + limit, side="right")), begin + 1)
+        yield slice(begin, end)
+        begin = end
+
+
+def offsets(owner: Ints, count: int) -> Ints:
+    """Return the CSR offsets (count + 1,) of rows sorted by owner."""
+    return np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=count))])
