@@ -41,14 +41,18 @@ coordinate = st.integers(-999_999, 9_999_999).map(lambda k: k / 1000)
 
 
 @settings(max_examples=50, deadline=None)
-@given(st.lists(st.tuples(coordinate, coordinate, coordinate), min_size=1, max_size=20), st.sampled_from(["\n", "\r\n"]))
+@given(
+    st.lists(st.tuples(coordinate, coordinate, coordinate), min_size=1, max_size=20), st.sampled_from(["\n", "\r\n"])
+)
 def test_written_coordinates_come_back(points: list[tuple[float, float, float]], end: str) -> None:
     text = end.join(atom(xyz="".join(f"{value:8.3f}" for value in point)) for point in points).encode()
     for data in (text, gzip.compress(text), b"\xef\xbb\xbf" + text):
         assert np.array_equal(read("t.pdb", data).models[0].position, points)
 
 
-@pytest.mark.parametrize("bad", [" " * 8, "     abc", "********", "  15,268", "     nan", "     inf", "   1 2.0", "  1_0.00"])
+@pytest.mark.parametrize(
+    "bad", [" " * 8, "     abc", "********", "  15,268", "     nan", "     inf", "   1 2.0", "  1_0.00"]
+)
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_what_is_no_number_is_refused(bad: str, axis: int) -> None:
     fields = ["   1.000"] * 3

@@ -14,8 +14,16 @@ from molviz.read.xyzr import read_xyzr
 __all__ = ["FORMATS", "READERS", "Reading", "read"]
 
 
+def _read_mmcif(data: bytes, source: str) -> Reading:
+    """Import the parser only when an mmCIF file comes: it takes longer to load than a small file to read."""
+    from molviz.read.mmcif import read_mmcif
+
+    return read_mmcif(data, source)
+
+
 FORMATS: dict[str, Callable[[bytes, str], Reading]] = {
     "pdb": read_pdb,
+    "mmcif": _read_mmcif,
     "xyz": read_xyz,
     "extxyz": read_xyz,
     "xyzr": read_xyzr,

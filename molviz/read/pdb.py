@@ -149,9 +149,7 @@ def _positions(atoms: Lines, source: str) -> Floats:
     return np.column_stack(columns)
 
 
-def _optional(
-    atoms: Lines, what: str, first: int, last: int, default: float, source: str
-) -> tuple[Floats, list[str]]:
+def _optional(atoms: Lines, what: str, first: int, last: int, default: float, source: str) -> tuple[Floats, list[str]]:
     """Return a column that may be blank, and a warning where it is neither blank nor a number."""
     texts, which = np.unique(atoms.field(first, last), return_inverse=True)
     readable = np.array([is_number(text) for text in texts.tolist()])
