@@ -63,7 +63,8 @@ def _document(text: str, lines: list[str], source: str) -> cif.Document:
         reason = str(error)[match.end() :] if match else str(error)
         if line and reason.startswith("Wrong number of values"):
             reason, line = _incomplete_loop(lines, line, reason)
-        elif line and lines[line - 1].startswith(";"):
+        elif line and (lines[line - 1].startswith(";") or reason.startswith("unterminated text")):
+            line = max(number for number, text in enumerate(lines, start=1) if text.startswith(";"))
             reason = "the text field that opens here is not closed"
         raise InputError(f"{reason}; expected correct CIF", source, line) from error
 
@@ -152,7 +153,7 @@ class Site:
     def _line_of_row(self) -> list[int]:
         column = next(column for tag in (*_CARTESIAN, *_FRACTIONAL) if (column := self.block.find_values(tag)))
         loop = column.get_loop()
-        item = self.block.find_loop_item(column.tag)
+        item = self.block.find_loop_item(column.tag.lower())  # compared in lower case
         if loop is None or item is None:
             return []
         return list(_lines_of_values(self.lines, item.line_number))[:: loop.width()]
@@ -285,7 +286,10 @@ def _product(factors: list[Floats]) -> Floats:
 def _unit_cell(site: Site) -> Reading:
     """Return all atoms of one unit cell, fractional coordinates in [0, 1)."""
     site.coordinates(_FRACTIONAL)
-    small = gemmi.make_small_structure_from_block(site.block)
+    try:
+        small = gemmi.make_small_structure_from_block(site.block)
+    except (ValueError, RuntimeError) as error:
+        raise InputError(f"{error}; expected a unit cell and symmetry operators", site.source) from error
     _check_cell(small.cell, site.source)
     sites = small.get_all_unit_cell_sites()
     fraction = np.array([atom.fract.tolist() for atom in sites])
