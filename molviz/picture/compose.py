@@ -181,7 +181,7 @@ def _placement(drawn: Drawn, look: Look) -> tuple[Placement, tuple[float, float]
 def _picture(
     drawn: Drawn, look: Look, placement: Placement, widths: tuple[float, float], layers: list[Layer]
 ) -> Picture:
-    half = max(*widths, SPREAD) / 2
+    half = max(*widths, 0.0 if look.color_by == "index" else SPREAD) / 2
     low, high = (placement.scale * corner + placement.shift for corner in (drawn.low, drawn.high))
     box = (float(low[0] - half), float(low[1] - half), float(high[0] + half), float(high[1] + half))
     return Picture(
