@@ -26,6 +26,7 @@ from molviz.read.source import note
 _AXES = ("x", "y", "z")
 _CARTESIAN = tuple(f"_atom_site.Cartn_{axis}" for axis in _AXES)
 _FRACTIONAL = tuple(f"_atom_site_fract_{axis}" for axis in _AXES)
+_OPERATORS = ("_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz")
 _UNCERTAINTY = re.compile(rb"\(\d+\)$")  # 1.234(5): standard uncertainty in the last digits
 _TOKEN = re.compile(r"""'.*?'(?=\s|$)|".*?"(?=\s|$)|\#.*|\S+""")
 _POSITION = re.compile(r"^[^:]*:(\d+):\S* *")
@@ -309,9 +310,15 @@ def _unit_cell(site: Site) -> Reading:
     molecule = Molecule.of(_name(site), position, element, atom_name=label)
     again = coinciding_rows(position)
     warnings = [coinciding_note(len(again), site.source, None)] if len(again) else []
-    if small.spacegroup is None:
-        warnings.append(note("no space group known; only the listed atoms are drawn", site.source))
+    if not small.cell.images and not _states_no_symmetry(site, small.spacegroup_hm):
+        warnings.append(note("no symmetry that is understood; only the listed sites are drawn", site.source))
     return Reading(site.source, "mmcif", (molecule,), {}, tuple(warnings), (molecule.chain,))
+
+
+def _states_no_symmetry(site: Site, space_group: str) -> bool:
+    """Tell whether the file says that the listed sites are the whole cell."""
+    operators = [text for tag in _OPERATORS for text in site.block.find_values(tag)]
+    return bool(operators) or space_group.replace(" ", "") == "P1"
 
 
 def _check_cell(cell: gemmi.UnitCell, source: str) -> None:
