@@ -20,8 +20,8 @@ def test_isotopes() -> None:
 
 
 def test_labels() -> None:
-    labels = ["C1", "H2a", "Fe2+", "6", "0", "119", "Si", "OW", "X", "+"]
-    assert [symbol_of_label(label) for label in labels] == ["C", "H", "Fe", "C", "X", "X", "Si", "X", "X", "X"]
+    labels = ["C1", "H2a", "Fe2+", "6", "0", "119", "Si", "OW", "X", "+", "³"]
+    assert [symbol_of_label(label) for label in labels] == ["C", "H", "Fe", "C", "X", "X", "Si", "X", "X", "X", "X"]
 
 
 @pytest.mark.parametrize(

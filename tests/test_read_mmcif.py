@@ -155,3 +155,19 @@ def test_a_small_molecule_with_a_missing_coordinate_or_cell_is_refused() -> None
         read("t.cif", SMALL.replace("0.5 0.5 0.5", "0.5 0.5 ?").encode())
     with pytest.raises(InputError, match="without a unit cell"):
         read("t.cif", "\n".join(line for line in SMALL.split("\n") if not line.startswith("_cell")).encode())
+
+
+def test_coordinates_of_a_small_molecule_are_those_that_were_checked() -> None:
+    molecule = read("t.cif", SMALL.replace("0.5 0.5 0.5", "5.0D-1 0.5(1) +0.5").encode()).models[0]
+    assert sorted(molecule.element.tolist()) == ["Cl"] * 4 + ["Na"] * 4
+
+
+def test_missing_symmetry_is_told() -> None:
+    assert not read("t.cif", SMALL.replace("F m -3 m", "P 1").encode()).warnings
+    reading = read("t.cif", SMALL.replace("F m -3 m", "?").encode())
+    assert len(reading.models[0]) == 2 and "no symmetry" in reading.warnings[0]
+
+
+def test_sites_without_labels_are_refused() -> None:
+    with pytest.raises(InputError, match="expected _atom_site_label"):
+        read("t.cif", SMALL.replace("_atom_site_label", "_atom_site_name").encode())

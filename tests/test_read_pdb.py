@@ -98,6 +98,11 @@ def test_an_odd_occupancy_or_bfactor_is_told() -> None:
     assert [warning.split(":")[:2] for warning in reading.warnings] == [["t.pdb", "1"]] * 2
 
 
+def test_fortran_exponents_are_read_in_every_column() -> None:
+    molecule = first(atom(xyz=" 1.0D+00   2.000   3.0d0", occupancy="  1.D0", bfactor=" 2.5D1"))
+    assert molecule.position.tolist() == [[1, 2, 3]] and molecule.bfactor.tolist() == [25]
+
+
 # ---- residues
 
 
