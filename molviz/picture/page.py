@@ -36,13 +36,14 @@ class Placement:
 def place(page: Page, low: Floats, high: Floats, line: float) -> Placement:
     """Return where a drawing from ``low`` to ``high`` (2,) ångström goes; ``line`` points more around it are painted.
 
-    On a page of fixed size the drawing is centred, and as large as the margins let it be unless told otherwise.
+    It is centred, on a page of fixed size as large as the margins let it be unless told otherwise; a page that fits the
+    drawing is a whole number of points wide and high, so that it divides into whole pixels.
     """
     margin = (USUAL_MARGIN[page.size] if page.margin is None else page.margin) + line
     extent = np.maximum(high - low, 1e-9)
     paper = PAPER.get(page.size)
     scale = page.scale or _scale(page, extent, paper, margin)
-    width, height = paper or tuple(float(side) for side in extent * scale + 2 * margin)
+    width, height = paper or tuple(float(np.ceil(side - 1e-9)) for side in extent * scale + 2 * margin)
     shift = np.array([width, height]) / 2 - scale * (low + high) / 2
     return Placement(scale, shift, width, height)
 
