@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pdb_lines import atom
+from tests.pdb_lines import atom
 
 from molviz.errors import InputError
 from molviz.read import read

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pdb_lines import atom
+from tests.pdb_lines import atom
 
 from molviz.errors import InputError
 from molviz.model.molecule import Molecule

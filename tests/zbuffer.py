@@ -6,7 +6,7 @@ from molviz.model.spheres import Spheres
 
 
 def zbuffer(spheres: Spheres, low: np.ndarray, pixel: float, shape: tuple[int, int]) -> np.ndarray:
-    """Labels (h, w): the row of the sphere nearest the eye at each pixel's centre, −1 for none; the top row is y = high.
+    """Labels (h, w): the row of the sphere nearest the eye at each pixel centre, −1 for none; row 0 is the top.
 
     ``low`` is the lower left corner of the image in ångström, ``pixel`` the size of a pixel.
     """
