@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.pdb_lines import atom
 
 from molviz.errors import InputError
 from molviz.read import read
+from tests.pdb_lines import atom
 
 CIF = "data_x\nloop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\nC 1 2 3\n"
 TEXTS = {

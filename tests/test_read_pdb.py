@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.pdb_lines import atom
 
 from molviz.errors import InputError
 from molviz.model.molecule import Molecule
 from molviz.read import Reading, read
+from tests.pdb_lines import atom
 
 
 def pdb(*lines: str) -> Reading:

@@ -1,7 +1,8 @@
 """Options that several commands share: click's words become values of the pipeline."""
 
+import sys
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, TypeAlias
 
 import click
 
@@ -12,7 +13,7 @@ from molviz.picture.picture import Color
 from molviz.picture.style import parse_color
 from molviz.pipeline.inputs import Loaded, Wanted, load
 
-F = TypeVar("F", bound=Callable[..., Any])
+Decorator: TypeAlias = Callable[[Callable[..., Any]], Any]
 FORMATS = ("pdb", "mmcif", "xyz", "extxyz", "xyzr")
 
 
@@ -51,10 +52,10 @@ BACKGROUND = Parsed("color", parse_background)
 POSITIVE = click.FloatRange(min=0, min_open=True)
 
 
-def applied(*options: Callable[[F], F]) -> Callable[[F], F]:
+def applied(*options: Decorator) -> Decorator:
     """Return a decorator that adds the options in the order given."""
 
-    def decorate(command: F) -> F:
+    def decorate(command: Callable[..., Any]) -> Any:
         for option in reversed(options):
             command = option(command)
         return command
@@ -117,7 +118,7 @@ def wanted_from(options: dict[str, Any]) -> Wanted:
 
 def load_and_warn(source: str, wanted: Wanted, quiet: bool, strict: bool) -> list[Loaded]:
     """Return the wanted models; warnings go to standard error, or are raised as InputError if strict."""
-    data = click.get_binary_stream("stdin").read() if source == "-" else None
+    data = sys.stdin.buffer.read() if source == "-" else None
     loaded = load(source, wanted, data)
     warnings = dict.fromkeys(warning for one in loaded for warning in one.warnings)
     for warning in warnings:

@@ -123,13 +123,13 @@ def _paths(arcs: PlaneArcs, circle: Ints, chains: Chains, shape: Ints | None = N
 
 
 def _fills(name: str, paths: Paths, drawn: Drawn, sphere: Ints, look: Look, grouped: bool) -> FillLayer:
-    colors = SCHEMES[look.color_by](drawn.molecule, look.style)
-    names = marks(drawn.molecule, grouped)
-    atoms = drawn.atom[sphere].tolist()
-    spread = 0.0 if look.color_by == "index" else SPREAD
+    atoms = drawn.atom[sphere]
+    everyone = SCHEMES[look.color_by](drawn.molecule, look.style)
+    colors = [everyone[atom] for atom in atoms.tolist()]
     if look.fill == "none":
         colors = [look.background or (255, 255, 255)] * len(colors)
-    return FillLayer(name, paths, [colors[atom] for atom in atoms], [names[atom] for atom in atoms], spread)
+    spread = 0.0 if look.color_by == "index" else SPREAD
+    return FillLayer(name, paths, colors, marks(drawn.molecule.take(atoms), grouped), spread)
 
 
 def picture_of_pieces(found: Pieces, drawn: Drawn, look: Look) -> Picture:
