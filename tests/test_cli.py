@@ -80,7 +80,8 @@ def test_turning_about_the_line_of_sight_changes_no_area(tmp_path: Path) -> None
 
 
 def test_standard_input_and_output() -> None:
-    result = run("draw", "-", "--format", "xyz", "-o", "-", "--to", "svg", "--quiet", stdin=Path(CAFFEINE).read_bytes())
+    words = ["-", "--format", "xyz", "-o", "-", "--to", "svg", "--quiet"]
+    result = run("draw", *words, stdin=Path(CAFFEINE).read_bytes())
     assert result.exit_code == 0
     root = ElementTree.fromstring(result.stdout_bytes)
     titles = [element.text for element in root.iter("{http://www.w3.org/2000/svg}title")]

@@ -59,7 +59,26 @@ class StackedLayer:
     strokes: Sequence[StrokeLayer]
 
 
-Layer: TypeAlias = FillLayer | StrokeLayer | StackedLayer
+@dataclass(frozen=True)
+class Text:
+    """A line of text whose baseline begins at x, y; size in points."""
+
+    x: float
+    y: float
+    text: str
+    size: float
+
+
+@dataclass(frozen=True)
+class TextLayer:
+    """Lines of text in a sans-serif face of the viewer's, one colour."""
+
+    name: str
+    texts: Sequence[Text]
+    color: Color = (0, 0, 0)
+
+
+Layer: TypeAlias = FillLayer | StrokeLayer | StackedLayer | TextLayer
 
 
 @dataclass(frozen=True)

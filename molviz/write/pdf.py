@@ -1,5 +1,6 @@
 """PDF: arcs as cubic Béziers within a thousandth of a point, layers that a viewer can switch off."""
 
+import re
 from collections.abc import Iterator
 from io import BytesIO
 
@@ -8,7 +9,7 @@ import pydyf
 
 from molviz.arrays import Bools
 from molviz.curves import Paths
-from molviz.picture.picture import Color, FillLayer, Layer, Picture, StackedLayer, StrokeLayer
+from molviz.picture.picture import Color, FillLayer, Layer, Picture, StackedLayer, StrokeLayer, TextLayer
 from molviz.write.ellipse import (
     bezier_handles,
     bezier_pieces,
@@ -18,7 +19,7 @@ from molviz.write.ellipse import (
     starts_and_ends,
     with_straight_pieces,
 )
-from molviz.write.text import Texts, clean, number, numbers
+from molviz.write.text import Texts, ascii_line, clean, number, numbers
 
 PLACES = 3
 
@@ -44,7 +45,8 @@ def write_pdf(picture: Picture) -> bytes:
 def page(pdf: pydyf.PDF, picture: Picture, properties: pydyf.Dictionary, content: pydyf.Stream) -> pydyf.Dictionary:
     """Return the page object."""
     box = pydyf.Array([0, 0, number(picture.width, PLACES), number(picture.height, PLACES)])
-    resources = pydyf.Dictionary({"Properties": properties})
+    font = pydyf.Dictionary({"Type": "/Font", "Subtype": "/Type1", "BaseFont": "/Helvetica"})
+    resources = pydyf.Dictionary({"Properties": properties, "Font": pydyf.Dictionary({"F": font})})
     return pydyf.Dictionary(
         {
             "Type": "/Page", "Parent": pdf.pages.reference, "MediaBox": box,
@@ -72,7 +74,9 @@ def color_text(color: Color) -> str:
 
 def layer_lines(layer: Layer) -> Iterator[str]:
     """Yield the operators of a layer."""
-    if isinstance(layer, StackedLayer):
+    if isinstance(layer, TextLayer):
+        yield from written(layer)
+    elif isinstance(layer, StackedLayer):
         yield from stacked(layer)
     elif isinstance(layer, FillLayer):
         yield f"{number(layer.spread, PLACES)} w"
@@ -80,6 +84,14 @@ def layer_lines(layer: Layer) -> Iterator[str]:
     else:
         yield pen(layer)
         yield from (f"{shape} S" for shape in shape_texts(layer.paths) if shape)
+
+
+def written(layer: TextLayer) -> Iterator[str]:
+    """Yield lines of text in Helvetica, which every viewer has."""
+    yield f"{color_text(layer.color)} rg"
+    for one in layer.texts:
+        text = re.sub(r"([\\()])", r"\\\1", ascii_line(one.text))
+        yield f"BT /F {number(one.size)} Tf {number(one.x, PLACES)} {number(one.y, PLACES)} Td ({text}) Tj ET"
 
 
 def pen(layer: StrokeLayer) -> str:

@@ -1,13 +1,14 @@
 """PostScript and EPS: short procedures, true arcs, one line of text per arc."""
 
 import math
+import re
 from collections.abc import Iterator
 
 import numpy as np
 
 from molviz.arrays import Bools, Floats
 from molviz.curves import Paths, PlaneArcs
-from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StackedLayer, StrokeLayer
+from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StackedLayer, StrokeLayer, TextLayer
 from molviz.write.ellipse import THIN, closed_loops, on_axes, with_straight_pieces
 from molviz.write.text import Texts, ascii_line, number, numbers
 
@@ -84,7 +85,9 @@ def color_text(color: Color) -> str:
 
 def layer_lines(layer: Layer) -> Iterator[str]:
     """Yield the lines of a layer: per shape its title, its colour where it changes, its path."""
-    if isinstance(layer, StackedLayer):
+    if isinstance(layer, TextLayer):
+        yield from written(layer)
+    elif isinstance(layer, StackedLayer):
         yield from stacked(layer)
     elif isinstance(layer, StrokeLayer):
         yield pen(layer)
@@ -92,6 +95,14 @@ def layer_lines(layer: Layer) -> Iterator[str]:
     else:
         yield f"{number(layer.spread, 3)} w"
         yield from filled(layer)
+
+
+def written(layer: TextLayer) -> Iterator[str]:
+    """Yield lines of text in Helvetica."""
+    yield color_text(layer.color)
+    for one in layer.texts:
+        text = re.sub(r"([\\()])", r"\\\1", ascii_line(one.text)[:200])
+        yield f"/Helvetica {number(one.size)} selectfont {number(one.x)} {number(one.y)} m ({text}) show"
 
 
 def pen(layer: StrokeLayer) -> str:

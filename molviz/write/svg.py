@@ -9,8 +9,9 @@ from svgwrite import Drawing
 from svgwrite.container import Group, Style
 from svgwrite.path import Path
 from svgwrite.shapes import Rect
+from svgwrite.text import Text
 
-from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StackedLayer, StrokeLayer
+from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StackedLayer, StrokeLayer, TextLayer
 from molviz.write.svg_path import path_data
 from molviz.write.text import clean, number, token
 
@@ -63,7 +64,10 @@ class Elements:
         """Return the group of a layer, which Inkscape takes for a layer of its own."""
         group = self.group(layer.name)
         group["inkscape:groupmode"], group["inkscape:label"] = "layer", clean(layer.name)
-        if isinstance(layer, StrokeLayer):
+        if isinstance(layer, TextLayer):
+            group.update({"fill": hexadecimal(layer.color), "font-family": "Helvetica, Arial, sans-serif"})
+            self.texts(group, layer, height)
+        elif isinstance(layer, StrokeLayer):
             group.update(stroke_attributes(layer))
             self.lines(group, path_data(layer.paths, height), layer.mark)
         elif isinstance(layer, FillLayer):
@@ -73,6 +77,12 @@ class Elements:
             group.update(spread_attributes(layer.fills.spread))
             self.stacks(group, layer, height)
         return group
+
+    def texts(self, group: Group, layer: TextLayer, height: float) -> None:
+        """Add lines of text."""
+        for one in layer.texts:
+            place = (number(one.x), number(height - one.y))
+            group.add(Text(clean(one.text), insert=place, font_size=number(one.size), factory=self.drawing))
 
     def lines(self, layer: Group, data: Sequence[str], marks: Sequence[Mark]) -> None:
         """Add stroked shapes; without marks all of them are one path."""

@@ -9,6 +9,7 @@ from molviz.curves import Paths, PlaneArcs
 from molviz.write.ellipse import (
     AxisArcs,
     closed_loops,
+    cross,
     in_equal_pieces,
     major_vertex,
     on_axes,
@@ -18,6 +19,7 @@ from molviz.write.ellipse import (
 from molviz.write.text import Texts, dictionary
 
 STRAY = 0.02  # points: how far rounding may move the middle of an arc before the arc is cut in two
+FLAT = 0.01  # points: an arc that leaves its chord by less is the chord, as rounding moves its ends as far
 CUTS = 6  # halvings: pieces a 64th of an arc are pinned by their ends
 HALF_TURN = 1e-9  # radians
 
@@ -81,6 +83,21 @@ def drawn_middle(command: Commands) -> Floats:
     return np.asarray((command.start + command.end) / 2 + beside)
 
 
+def flat(arcs: PlaneArcs) -> Bools:
+    """Return which arcs (k,) run along their chords, never backwards, and hardly leave them."""
+    stop = arcs.start + arcs.sweep
+    start, middle, end = (arcs.at(t) for t in (arcs.start, arcs.start + arcs.sweep / 2, stop))
+    chord = end - start
+    length = np.hypot(*chord.T)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        beside = np.abs(cross(chord, middle - start)) / length
+    onward = np.ones(len(length), dtype=bool)
+    for t in (arcs.start, stop):
+        tangent = (arcs.v * np.cos(t)[:, None] - arcs.u * np.sin(t)[:, None]) * np.sign(arcs.sweep)[:, None]
+        onward &= np.einsum("ki,ki->k", tangent, chord) > 0
+    return np.asarray((beside < FLAT) & onward & (np.abs(arcs.sweep) < np.pi))
+
+
 def from_vertices(paths: Paths) -> Paths:
     """Return the paths with every loop that is one whole ellipse starting at a major vertex.
 
@@ -98,9 +115,11 @@ def settled(paths: Paths) -> tuple[Paths, Bools, Commands]:
     """Return paths (y down) cut so that their rounded commands draw the arcs, which are straight, and the commands.
 
     The centre follows from ends and radii, badly so when the ends are opposite, coincide, or the ellipse is thin:
-    there a hundredth of a point can move the arc by tenths. Such arcs are cut in two, whose ends then pin them.
+    there a hundredth of a point can move the arc by tenths. Such arcs are cut in two, whose ends then pin them; what is
+    as good as straight is written so.
     """
     paths, straight = with_straight_pieces(from_vertices(paths))
+    straight |= flat(paths.arcs)
     for _ in range(CUTS):
         command = commands(paths, straight)
         arcs = paths.arcs
@@ -110,6 +129,7 @@ def settled(paths: Paths) -> tuple[Paths, Bools, Commands]:
             break
         count = np.where(stray, 2, 1)
         paths, straight = in_equal_pieces(paths, count), np.repeat(straight, count)
+        straight |= flat(paths.arcs)
     return paths, straight, commands(paths, straight)
 
 
