@@ -14,7 +14,7 @@ from molviz.cli import main
 
 SAMPLES = Path(__file__).parent.parent / "samples"
 CAFFEINE = str(SAMPLES / "caffeine.xyz")
-CRAMBIN = str(SAMPLES / "crambin.pdb")
+PROTEIN = str(SAMPLES / "1a8o.pdb")
 
 
 def run(*words: str, stdin: bytes = b"") -> Result:
@@ -47,7 +47,7 @@ def test_the_summary_is_one_line_on_standard_error(tmp_path: Path) -> None:
 
 
 def test_json_is_the_map_of_the_contract(tmp_path: Path) -> None:
-    data = json.loads(drawn(tmp_path, CRAMBIN, "--check", "--orient", "file"))
+    data = json.loads(drawn(tmp_path, PROTEIN, "--check", "--orient", "file"))
     assert (data["format"], data["version"], data["units"]) == ("molviz-visibility-map", 1, "angstrom")
     assert np.allclose(data["view"], np.eye(3))
     for number, arc in enumerate(data["arcs"]):
@@ -70,8 +70,8 @@ def test_json_spheres_lie_where_the_file_has_them(tmp_path: Path) -> None:
 
 
 def test_turning_about_the_line_of_sight_changes_no_area(tmp_path: Path) -> None:
-    straight = json.loads(drawn(tmp_path, CRAMBIN))
-    turned = json.loads(drawn(tmp_path, CRAMBIN, "--rotate", "z,37"))
+    straight = json.loads(drawn(tmp_path, PROTEIN))
+    turned = json.loads(drawn(tmp_path, PROTEIN, "--rotate", "z,37"))
     areas = [{face["sphere"]: face["area"] for face in data["faces"]} for data in (straight, turned)]
     atoms = [[sphere["atom"] for sphere in data["spheres"]] for data in (straight, turned)]
     by_atom = [{atoms[k][sphere]: area for sphere, area in areas[k].items()} for k in (0, 1)]
@@ -91,19 +91,19 @@ def test_standard_input_and_output() -> None:
 def test_several_inputs_go_into_a_folder_and_one_bad_file_stops_nothing(tmp_path: Path) -> None:
     bad = tmp_path / "bad.xyz"
     bad.write_text("2\n\nC 0 0 0\n", encoding="utf-8")
-    result = run("draw", CAFFEINE, str(bad), CRAMBIN, "-o", f"{tmp_path}/out/", "--to", "svg")
+    result = run("draw", CAFFEINE, str(bad), PROTEIN, "-o", f"{tmp_path}/out/", "--to", "svg")
     assert result.exit_code == 1
     assert f"molviz: {bad}:1:" in result.stderr
-    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["caffeine.svg", "crambin.svg"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["1a8o.svg", "caffeine.svg"]
 
 
 def test_several_inputs_to_one_file_are_a_usage_error(tmp_path: Path) -> None:
-    assert run("draw", CAFFEINE, CRAMBIN, "-o", str(tmp_path / "one.svg")).exit_code == 2
+    assert run("draw", CAFFEINE, PROTEIN, "-o", str(tmp_path / "one.svg")).exit_code == 2
 
 
 def test_a_pattern_names_the_outputs(tmp_path: Path) -> None:
-    assert run("draw", CAFFEINE, CRAMBIN, "-o", str(tmp_path / "{stem}-x.svg"), "--quiet").exit_code == 0
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["caffeine-x.svg", "crambin-x.svg"]
+    assert run("draw", CAFFEINE, PROTEIN, "-o", str(tmp_path / "{stem}-x.svg"), "--quiet").exit_code == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["1a8o-x.svg", "caffeine-x.svg"]
 
 
 def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
@@ -121,11 +121,11 @@ def test_an_output_that_cannot_be_written_is_told() -> None:
 
 @pytest.mark.parametrize(
     "words",
-    [["draw", CAFFEINE], ["draw", CAFFEINE, "-o", "x.tiff"], ["draw", CAFFEINE, "-o", "x.svg", "--rotate", "30"],
-     ["draw", CAFFEINE, "-o", "x.svg", "--width", "-3cm"], ["draw", CAFFEINE, "-o", "x.svg", "--background", "pinkish"]],
+    [[], ["-o", "x.tiff"], ["-o", "x.svg", "--rotate", "30"], ["-o", "x.svg", "--width", "-3cm"],
+     ["-o", "x.svg", "--background", "pinkish"]],
 )  # fmt: skip
 def test_a_wrong_command_line_exits_with_two(words: list[str]) -> None:
-    result = run(*words)
+    result = run("draw", CAFFEINE, *words)
     assert result.exit_code == 2 and "Traceback" not in result.output
 
 

@@ -43,7 +43,7 @@ def wrong_pixels(label: np.ndarray, seen: Spheres, low: np.ndarray, scale: float
 
 @pytest.mark.parametrize("method", ["visible", "painter"])
 @pytest.mark.parametrize("turn", TURNS, ids=["file", "turned"])
-@pytest.mark.parametrize("name", ["caffeine.xyz", "C60.xyz", "crambin.pdb", "nacl.extxyz"])
+@pytest.mark.parametrize("name", ["caffeine.xyz", "c60.xyz", "1a8o.pdb", "nacl.extxyz", "pile.xyzr"])
 def test_svg_mask_equals_zbuffer(name: str, turn: tuple[tuple[str, float], ...], method: str) -> None:
     loaded = load(str(SAMPLES / name), Wanted())[0]
     svg, seen, scale = mask(loaded, Eye("file", turn), ".svg", method)
@@ -56,7 +56,7 @@ def test_svg_mask_equals_zbuffer(name: str, turn: tuple[tuple[str, float], ...],
 @needs_ghostscript
 @pytest.mark.parametrize("method", ["visible", "painter"])
 @pytest.mark.parametrize("turn", TURNS, ids=["file", "turned"])
-@pytest.mark.parametrize("name", ["caffeine.xyz", "C60.xyz", "crambin.pdb"])
+@pytest.mark.parametrize("name", ["caffeine.xyz", "c60.xyz", "1a8o.pdb"])
 def test_eps_mask_equals_zbuffer(name: str, turn: tuple[tuple[str, float], ...], method: str) -> None:
     """The tight bounding box begins where the spheres do."""
     loaded = load(str(SAMPLES / name), Wanted())[0]

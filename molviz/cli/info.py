@@ -42,7 +42,7 @@ def info_command(inputs: tuple[str, ...], as_json: bool, **options: Any) -> None
 
 def _as_text(result: dict[str, Any]) -> str:
     elements = ", ".join(f"{symbol} {count}" for symbol, count in result["elements"].items())
-    rho = "no spheres meet" if result["rho"] is None else f"{result['rho']:.3f}"
+    rho = "one sphere only" if result["rho"] is None else f"{result['rho']:.3f}"
     rows = [
         (result["file"], f"{result['format']}, model {result['model']} of {result['models']}: {result['title']}"),
         ("atoms", f"{result['atoms']} ({elements})"),

@@ -49,7 +49,7 @@ def picture_of_map(found: VisibilityMap, drawn: Drawn, look: Look) -> Picture:
     """Return the drawing of a visibility map: regions that do not overlap, and on top every visible edge once."""
     placement, widths = _placement(drawn, look)
     arcs = found.arcs.moved(placement.scale, placement.shift)
-    sliver = _slivers(found)
+    sliver = slivers(found)
     layers: list[Layer] = []
     if look.fill != "none":
         layers.append(_regions(found, arcs, sliver, drawn, look))
@@ -74,8 +74,8 @@ def edge_roles(found: VisibilityMap, sliver: Bools) -> "np.ndarray[tuple[int], n
     return np.where(~found.is_crease() & sliver[loop_of[::2]], "", roles)
 
 
-def _slivers(found: VisibilityMap) -> Bools:
-    """Which loops enclose less than ``SLIVER`` times their half length."""
+def slivers(found: VisibilityMap) -> Bools:
+    """Return which loops enclose less than ``SLIVER`` times their half length."""
     row = found.loops.half_edge >> 1
     chord = found.arcs.take(row)
     length = np.abs(chord.sweep) * np.sqrt((chord.u**2 + chord.v**2).sum(axis=1) / 2)

@@ -8,11 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.errors import InputError
-from molviz.picture.compose import Drawn, Look, picture_of_map, picture_of_pieces
+from molviz.picture.compose import Drawn, Look, picture_of_map, picture_of_pieces, slivers
 from molviz.picture.picture import Picture
 from molviz.pipeline.inputs import Loaded
 from molviz.visibility.checks import check_map
-from molviz.visibility.half_edges import loop_areas
 from molviz.visibility.map import BACKGROUND
 from molviz.visibility.map_json import map_as_data
 from molviz.visibility.scene import extent, in_one_view, map_of_scene, pieces_of_scene
@@ -63,8 +62,7 @@ def _mapped(
     found, atom = in_one_view(loaded.spheres, view, map_of_scene)
     if check:
         check_map(found, view)
-    seen = np.unique(found.loops.face[loop_areas(found.arcs, found.loops) > 0])
-    visible = int(np.sum(seen != BACKGROUND))
+    visible = int(np.sum(np.unique(found.loops.face[~slivers(found)]) != BACKGROUND))
     if suffix == JSON:
         data = json.dumps(map_as_data(found, loaded.molecule.row[atom], view), separators=(",", ":")).encode() + b"\n"
     else:

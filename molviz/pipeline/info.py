@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from molviz.arrays import Floats
-from molviz.geometry.grid import Neighbours, neighbours
+from molviz.geometry.grid import Neighbours, intersecting_pairs, neighbours
 from molviz.model.spheres import Spheres
 from molviz.pipeline.inputs import Loaded
 
@@ -15,7 +15,6 @@ def info(loaded: Loaded) -> dict[str, Any]:
     near = neighbours(loaded.spheres)
     count = np.diff(near.start)
     symbols, numbers = np.unique(loaded.molecule.element, return_counts=True)
-    ratio = closest_ratio(loaded.spheres, near)
     return {
         "file": loaded.source,
         "format": loaded.format,
@@ -25,23 +24,28 @@ def info(loaded: Loaded) -> dict[str, Any]:
         "atoms": len(loaded.molecule),
         "elements": dict(zip(symbols.tolist(), numbers.tolist(), strict=True)),
         "k": float(loaded.spheres.radius.max() / loaded.spheres.radius.min()),
-        "rho": None if np.isinf(ratio) else ratio,
+        "rho": closest_ratio(loaded.spheres),
         "max_neighbours": int(count.max()),
         "mean_neighbours": float(count.mean()),
         "components": components(near),
     }
 
 
-def closest_ratio(spheres: Spheres, near: Neighbours) -> float:
-    """Return ρ: the least distance of a sphere's centre to another centre, in units of its own radius.
+def closest_ratio(spheres: Spheres) -> float | None:
+    """Return ρ: the least distance of a sphere's centre to another centre, in units of its own radius; None for one.
 
-    Only intersecting spheres are looked at; where none intersect, ρ is infinite (above 1 in any case).
+    Pairs nearer than 2 s give it once it is no more than 2 s / r_max, which pairs farther apart cannot undercut.
     """
-    owner = np.repeat(np.arange(len(near.start) - 1), np.diff(near.start))
-    if len(owner) == 0:
-        return float("inf")
-    gap: Floats = np.linalg.norm(spheres.center[near.item] - spheres.center[owner], axis=1)
-    return float(np.min(gap / spheres.radius[owner]))
+    largest, reach = float(spheres.radius.max()), float(spheres.radius.max())
+    while len(spheres.radius) > 1:
+        first, second = intersecting_pairs(Spheres(spheres.center, np.full(len(spheres.radius), reach)))
+        gap: Floats = np.linalg.norm(spheres.center[second] - spheres.center[first], axis=1)
+        larger = np.maximum(spheres.radius[first], spheres.radius[second])
+        ratio = float(np.min(gap / larger, initial=np.inf))
+        if ratio <= 2 * reach / largest:
+            return ratio
+        reach *= 2
+    return None
 
 
 def components(near: Neighbours) -> int:

@@ -14,7 +14,9 @@ from molviz.visibility.shadows import discs_of, overlaps
 from molviz.visibility.view import View
 
 AREA_TOLERANCE = 1e-9  # of the drawing's area, by which two ways of computing it may differ
-SIDE_STEP = 1e-3  # of an arc's size: how far beside its middle the two faces are looked up
+SIDE_STEP = 1e-7  # of an arc's size: how far beside its middle the faces are looked up, less than slivers are wide
+LEAST_STEP = 1e-10  # of the largest sphere: shorter steps drown in rounding
+CLEAR = 1e-3  # of the step, by which one surface must be nearer than the others to be called the nearest
 
 
 def check_map(found: VisibilityMap, view: View) -> None:
@@ -90,14 +92,14 @@ def faces_not_seen(found: VisibilityMap, view: View) -> Ints:
     along = arcs.v * np.cos(middle)[:, None] - arcs.u * np.sin(middle)[:, None]
     size = np.linalg.norm(along, axis=1)
     step = SIDE_STEP * size * np.minimum(np.abs(arcs.sweep), 1.0)
-    rows = np.flatnonzero(step > 1e-6)
+    rows = np.flatnonzero(step > LEAST_STEP * found.spheres.radius.max())
     left = np.column_stack([-along[rows, 1], along[rows, 0]]) / size[rows, None] * step[rows, None]
     own = found.circles.first[found.circle[rows]]
     wrong = np.zeros(len(rows), dtype=bool)
     for side, face in ((1.0, found.left), (-1.0, found.right)):
         points = arcs.take(rows).at(middle[rows]) + side * left
         margin, nearest = _nearest_surface(found, own, points, view)
-        wrong |= (nearest != face[rows]) & (margin > step[rows])
+        wrong |= (nearest != face[rows]) & (margin > CLEAR * step[rows])
     return rows[wrong]
 
 

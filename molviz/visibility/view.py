@@ -7,6 +7,9 @@ import numpy as np
 from molviz.arrays import Floats
 from molviz.model.spheres import Spheres
 
+EQUAL_MOMENTS = 1e-4  # of the largest: moments closer than that leave the axes to rounding
+SKEW = 1e-6  # of the absolute third moment: less than that is a symmetric molecule
+
 
 @dataclass(frozen=True)
 class View:
@@ -51,15 +54,29 @@ def principal_axes(spheres: Spheres, distance: float | None = None) -> View:
     """Return the view with the longest principal axis of the centres across the page and the shortest towards the eye.
 
     Signs, which the axes leave open, are chosen by the third moments, so that the same molecule looks the same however
-    it was turned; a right-handed frame in any case.
+    it was turned; a right-handed frame in any case. Where moments are equal, as of a cube, the file's axes decide.
     """
     offset = spheres.center - spheres.center.mean(axis=0)
-    _, vectors = np.linalg.eigh(offset.T @ offset)
-    rotation = vectors.T[::-1].copy()
+    rotation = _principal_frame(offset.T @ offset)
     for axis in range(2):
         along = offset @ rotation[axis]
         skew = np.sum(along**3)
-        if skew < 0 or (skew == 0 and along[0] < 0):
+        if skew < -SKEW * np.sum(np.abs(along) ** 3):
             rotation[axis] *= -1
     rotation[2] = np.cross(rotation[0], rotation[1])
     return View(rotation, middle(spheres), distance)
+
+
+def _principal_frame(moments: Floats) -> Floats:
+    """Eigenvectors (3, 3) in rows, longest first; among equal moments those nearest the file's axes, in their order."""
+    values, vectors = np.linalg.eigh(moments)
+    values, vectors = values[::-1], vectors.T[::-1]
+    frame: list[Floats] = []
+    for row in range(3):
+        equal = vectors[np.abs(values - values[row]) <= EQUAL_MOMENTS * values[0]]
+        projected = np.vstack([equal.T @ equal @ axis for axis in np.eye(3)]) if len(equal) > 1 else equal
+        for taken in frame:
+            projected = projected - np.outer(projected @ taken, taken)
+        best = projected[np.argmax(np.round(np.linalg.norm(projected, axis=1), 6))]
+        frame.append(best / np.linalg.norm(best))
+    return np.array(frame)
