@@ -2,21 +2,31 @@
 
 A sphere's part of the boundary is what no neighbouring ball covers; it is bounded by arcs of creases, the circles in
 which two spheres meet. A crease is cut by every third ball that meets both spheres.
+
+Special position. Balls inside another (or equal to an earlier one) are left out, balls that barely touch are apart
+(``TOUCH``). Where several circles of a sphere pass through one point, or touch, rounding makes or loses only arcs as
+short as rounding, which no sum over arcs feels. What must be decided consistently is a crease (i, j) that as a whole
+lies on sphere k (``COINCIDE``): then i, j and k belong to one pencil with their centres in a line, only the two
+outermost spheres reach the boundary, so ball k covers the crease unless its centre lies between those of i and j.
 """
 
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
+from molviz.geometry.caps import BINS, Caps, Masks, OpenCreases, open_creases
 from molviz.geometry.circles import Circles, creases
 from molviz.geometry.grid import Neighbours, neighbours
-from molviz.geometry.intervals import Intervals, above, gaps
-from molviz.geometry.rows import blocks, expand
+from molviz.geometry.intervals import TURN, Intervals, above, gaps
+from molviz.geometry.rows import blocks, expand, offsets
+from molviz.geometry.tolerances import COINCIDE, TOUCH
 from molviz.model.spheres import Spheres
 
-BLOCK_ENTRIES = 1 << 21  # entries (sphere, circle, neighbour) tested at a time
+BLOCK_ENTRIES = 1 << 17  # entries (sphere, cap, cap) at a time: their temporaries stay in cache
+THREADS = 2
 
 
 class FreeArcs(NamedTuple):
@@ -34,37 +44,107 @@ class FreeArcs(NamedTuple):
 
 
 class Boundary(NamedTuple):
-    """The union boundary of ``spheres``: all creases that are not entirely covered, and their free arcs."""
+    """The union boundary of ``spheres``: the creases with a free part, ordered by their spheres, and the free arcs."""
 
     spheres: Spheres
-    neighbours: Neighbours
+    neighbours: Neighbours  # the balls that meet each sphere
+    crossing: Neighbours  # the balls that cover a cap of each sphere and lie in no other ball
+    inside: Bools  # (n,) balls that lie in another, or equal an earlier one
     circles: Circles  # first < second
     arcs: FreeArcs
-
-
-class _Caps(NamedTuple):
-    """Neighbours of a block of spheres, padded to a rectangle: ball k covers ``x · axis > height`` of a unit sphere."""
-
-    item: Ints  # (s, p) the neighbours, −1 for padding
-    axis: Floats  # (s, p, 3)
-    height: Floats  # (s, p) cosine of the cap's angle; ≤ −1 if the ball holds the sphere, ≥ 1 if it leaves it free
 
 
 def union_boundary(spheres: Spheres, near: Neighbours | None = None) -> Boundary:
     """Return the free arcs of all creases of n spheres, linear in n for a hard sphere model (Theorem 4.1)."""
     near = neighbours(spheres) if near is None else near
-    first, second, alive, cuts = _uncovered_pairs(spheres, near)
-    circles, met = creases(spheres, first[alive], second[alive])
-    number = np.full(len(first), -1)
-    number[alive[met]] = np.arange(len(met))
-    pair, ball = cuts
-    ball, circle = ball[number[pair] >= 0], number[pair[number[pair] >= 0]]
-    middle, half = _inside_ball(spheres, circles, circle, ball)
+    crossing, inside = _crossing(spheres, near)
+    candidates = _candidates(spheres, crossing)
+    circles, _ = creases(spheres, candidates.first, candidates.second)
+    circles, arcs = _free_arcs(spheres, circles, candidates)
+    return Boundary(spheres, near, crossing, inside, circles, arcs)
+
+
+def _crossing(spheres: Spheres, near: Neighbours) -> tuple[Neighbours, Bools]:
+    """The neighbours whose spheres meet in a circle, among balls that lie in no other; and which balls do."""
+    count = len(spheres.radius)
+    owner = np.repeat(np.arange(count), np.diff(near.start))
+    distance = np.linalg.norm(spheres.center[near.item] - spheres.center[owner], axis=1)
+    own, other = spheres.radius[owner], spheres.radius[near.item]
+    slack = TOUCH * np.minimum(own, other)
+    larger = (other > own) | ((other == own) & (near.item < owner))
+    inside: Bools = np.zeros(count, dtype=bool)
+    inside[owner[larger & (distance <= other - own + slack)]] = True
+    kept = (distance < own + other - slack) & ~inside[owner] & ~inside[near.item]
+    return Neighbours(offsets(owner[kept], count), near.item[kept]), inside
+
+
+def _candidates(spheres: Spheres, crossing: Neighbours) -> OpenCreases:
+    """The creases that may have a free part, of all spheres; crease numbers run through."""
+    empty = np.empty(0, dtype=np.int64)
+    with ThreadPoolExecutor(THREADS) as pool:
+        parts = list(pool.map(lambda sphere: open_creases(_caps(spheres, crossing, sphere)), _blocks(crossing)))
+    parts.append(OpenCreases(empty, empty, empty.astype(np.uint64), empty, empty))
+    begin = np.cumsum([0] + [len(part.first) for part in parts])
+    shifted = [part._replace(crease=part.crease + at) for part, at in zip(parts, begin, strict=False)]
+    return _in_order(OpenCreases(*(np.concatenate(column) for column in zip(*shifted, strict=True))))
+
+
+def _in_order(creases: OpenCreases) -> OpenCreases:
+    order = np.lexsort((creases.second, creases.first))
+    rank = np.empty(len(order), dtype=np.int64)
+    rank[order] = np.arange(len(order))
+    first, second, covered = creases.first[order], creases.second[order], creases.covered[order]
+    return OpenCreases(first, second, covered, rank[creases.crease], creases.ball)
+
+
+def _blocks(crossing: Neighbours) -> Iterator[Ints]:
+    """Spheres with equally many neighbours side by side, so that little is padded."""
+    count = np.diff(crossing.start)
+    order = np.argsort(count, kind="stable")
+    order = order[np.searchsorted(count[order], 1) :]
+    for block in blocks(count[order] ** 2, BLOCK_ENTRIES):
+        yield order[block]
+
+
+def _caps(spheres: Spheres, crossing: Neighbours, sphere: Ints) -> Caps:
+    """The radical plane lies at ``t = (d² + ri² − rk²) / 2d``, and ``cos ω = t / ri``."""
+    row, entry = expand(crossing.start[sphere], crossing.start[sphere + 1])
+    place = entry - crossing.start[sphere][row]
+    toward = spheres.center[crossing.item[entry]] - spheres.center[sphere[row]]
+    distance = np.linalg.norm(toward, axis=1)
+    own, other = spheres.radius[sphere[row]], spheres.radius[crossing.item[entry]]
+    shape = len(sphere), int(place.max()) + 1
+    item, axis, cosine = np.full(shape, -1), np.zeros((*shape, 3)), np.full(shape, 2.0)
+    item[row, place] = crossing.item[entry]
+    axis[row, place] = toward / distance[:, None]
+    cosine[row, place] = (distance + (own - other) * (own + other) / distance) / (2 * own)
+    largest = np.argsort(cosine, axis=1)
+    rows = np.arange(len(sphere))[:, None]
+    return Caps(sphere, item[rows, largest], axis[rows, largest], cosine[rows, largest])
+
+
+def _free_arcs(spheres: Spheres, circles: Circles, candidates: OpenCreases) -> tuple[Circles, FreeArcs]:
+    """The gaps that the balls leave of each circle, and the circles that have any."""
+    middle, half = _inside_ball(spheres, circles, candidates.crease, candidates.ball)
     real = half > 0
-    free = gaps(Intervals(circle[real], (middle - half)[real], 2 * half[real]), len(circles.first))
-    name = np.append(ball[real], -1)  # row −1, no interval, becomes sphere −1
-    arcs = FreeArcs(free.circle, free.start, free.sweep, name[free.before], name[free.after])
-    return Boundary(spheres, near, circles, arcs)
+    known = _runs(candidates.covered)
+    covered = Intervals(candidates.crease[real], (middle - half)[real], 2 * half[real])
+    together = Intervals(*(np.concatenate(column) for column in zip(covered, known, strict=True)))
+    free = gaps(together, len(circles.first))
+    name = np.append(candidates.ball[real], np.full(len(known.circle) + 1, -1))  # row −1: no interval, no ball
+    open_circles, number = np.unique(free.circle, return_inverse=True)
+    arcs = FreeArcs(number, free.start, free.sweep, name[free.before], name[free.after])
+    return circles.take(open_circles), arcs
+
+
+def _runs(covered: Masks) -> Intervals:
+    """The bins known to be covered, as intervals. Each ends inside a ball that reaches on: no gap begins at its end."""
+    bits = np.unpackbits(covered.astype("<u8").view(np.uint8).reshape(-1, 8), axis=1, bitorder="little")
+    change = np.diff(bits.astype(np.int8), axis=1, prepend=0, append=0)
+    circle, begin = np.nonzero(change == 1)
+    end = np.nonzero(change == -1)[1]
+    edge = np.arange(BINS + 1) * (TURN / BINS)
+    return Intervals(circle, edge[begin], edge[end] - edge[begin])
 
 
 def _inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:
@@ -74,68 +154,20 @@ def _inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -
     """
     own = circles.first[circle]
     toward = spheres.center[ball] - spheres.center[own]
-    power = np.sum(toward**2, axis=1) + spheres.radius[own] ** 2 - spheres.radius[ball] ** 2
-    middle_part = np.sum((circles.center[circle] - spheres.center[own]) * toward, axis=1)
+    power = np.sum(toward**2, axis=1) + (spheres.radius[own] - spheres.radius[ball]) * (
+        spheres.radius[own] + spheres.radius[ball]
+    )
+    rest = power / 2 - np.sum((circles.center[circle] - spheres.center[own]) * toward, axis=1)
     along_a = np.sum(circles.a[circle] * toward, axis=1)
     along_b = np.sum(circles.b[circle] * toward, axis=1)
-    return above(along_a, along_b, power / 2 - middle_part)
+    middle, half = above(along_a, along_b, rest)
+    small = COINCIDE * spheres.radius[own] * np.linalg.norm(toward, axis=1)
+    same = np.flatnonzero((np.abs(rest) < small) & (np.hypot(along_a, along_b) < small))
+    half[same] = np.where(_between(spheres, own[same], circles.second[circle[same]], ball[same]), 0.0, np.pi)
+    return middle, half
 
 
-def _uncovered_pairs(spheres: Spheres, near: Neighbours) -> tuple[Ints, Ints, Ints, tuple[Ints, Ints]]:
-    """All pairs i < j, the rows of those whose crease no third ball covers, and the (pair row, ball) that cut these."""
-    owner = np.repeat(np.arange(len(near.start) - 1), np.diff(near.start))
-    later = np.flatnonzero(near.item > owner)
-    pair_of = np.full(len(near.item), -1)
-    pair_of[later] = np.arange(len(later))
-    alive: Bools = np.zeros(len(later), dtype=bool)
-    pairs, balls = [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.int64)]
-    for sphere, caps in _blocks_of_caps(spheres, near):
-        covered, cut = _tests(caps)
-        row = near.start[sphere][:, None] + np.arange(caps.item.shape[1])
-        wanted = (caps.item > sphere[:, None]) & (np.abs(caps.height) < 1) & ~covered.any(axis=2)
-        block, circle, ball = np.nonzero(cut & wanted[:, :, None])
-        pairs.append(pair_of[row[block, circle]])
-        balls.append(caps.item[block, ball])
-        alive[pair_of[row[wanted]]] = True
-    return owner[later], near.item[later], np.flatnonzero(alive), (np.concatenate(pairs), np.concatenate(balls))
-
-
-def _blocks_of_caps(spheres: Spheres, near: Neighbours) -> Iterator[tuple[Ints, _Caps]]:
-    """Spheres with equally many neighbours side by side, so that little is padded."""
-    count = np.diff(near.start)
-    order = np.argsort(count, kind="stable")
-    order = order[np.searchsorted(count[order], 1) :]
-    for block in blocks(count[order] ** 2, BLOCK_ENTRIES):
-        yield order[block], _caps(spheres, near, order[block])
-
-
-def _caps(spheres: Spheres, near: Neighbours, sphere: Ints) -> _Caps:
-    count = near.start[sphere + 1] - near.start[sphere]
-    item = np.full((len(sphere), int(count.max())), -1)
-    row, entry = expand(near.start[sphere], near.start[sphere + 1])
-    item[row, entry - near.start[sphere][row]] = near.item[entry]
-    toward = spheres.center[item] - spheres.center[sphere][:, None]
-    distance = np.linalg.norm(toward, axis=2)
-    own, other = spheres.radius[sphere][:, None], spheres.radius[item]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        axis = np.nan_to_num(toward / distance[:, :, None])
-        height = (distance**2 + own**2 - other**2) / (2 * distance * own)
-    height = np.where(distance <= other - own, -2.0, np.where(distance <= own - other, 2.0, height))
-    buried_twin = (distance == 0) & (own == other) & (item > sphere[:, None])
-    height = np.where((item < 0) | buried_twin, 2.0, height)
-    return _Caps(item, axis, height)
-
-
-def _tests(caps: _Caps) -> tuple[Bools, Bools]:
-    """Whether circle p of a sphere is (covered by, cut by) cap k: two arrays (s, p, k).
-
-    On circle p, at angle arccos g between the axes, ``x · axis_k`` runs over ``c_p g ± s_p √(1 − g²)``; compared with
-    c_k without a root: ``(c_k − c_p g)²`` against ``s_p² (1 − g²)``.
-    """
-    cosine = caps.axis @ caps.axis.transpose(0, 2, 1)
-    rest = caps.height[:, None, :] - caps.height[:, :, None] * cosine
-    reach = np.maximum(1 - caps.height**2, 0.0)[:, :, None] * np.maximum(1 - cosine**2, 0.0)
-    itself = np.arange(caps.item.shape[1])
-    rest[:, itself, itself] = 2.0
-    cut = rest**2 < reach
-    return (rest < 0) & ~cut, cut
+def _between(spheres: Spheres, first: Ints, second: Ints, ball: Ints) -> Bools:
+    """Whether the centre of a ball of the pencil of two spheres lies between theirs."""
+    to_first, to_second = (spheres.center[end] - spheres.center[ball] for end in (first, second))
+    return np.asarray(np.sum(to_first * to_second, axis=1) < 0)
