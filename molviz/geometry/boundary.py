@@ -18,7 +18,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.caps import BINS, Caps, Masks, OpenCreases, open_creases
-from molviz.geometry.circles import Circles, creases
+from molviz.geometry.circles import Circles, creases, radical_planes
 from molviz.geometry.grid import Neighbours, neighbours
 from molviz.geometry.intervals import TURN, Intervals, above, gaps
 from molviz.geometry.rows import blocks, expand, offsets
@@ -107,17 +107,15 @@ def _blocks(crossing: Neighbours) -> Iterator[Ints]:
 
 
 def _caps(spheres: Spheres, crossing: Neighbours, sphere: Ints) -> Caps:
-    """The radical plane lies at ``t = (d² + ri² − rk²) / 2d``, and ``cos ω = t / ri``."""
+    """The caps of the given spheres; ``cos ω = t / ri``, the radical plane lying at t."""
     row, entry = expand(crossing.start[sphere], crossing.start[sphere + 1])
     place = entry - crossing.start[sphere][row]
-    toward = spheres.center[crossing.item[entry]] - spheres.center[sphere[row]]
-    distance = np.linalg.norm(toward, axis=1)
-    own, other = spheres.radius[sphere[row]], spheres.radius[crossing.item[entry]]
+    direction, along = radical_planes(spheres, sphere[row], crossing.item[entry])
     shape = len(sphere), int(place.max()) + 1
     item, axis, cosine = np.full(shape, -1), np.zeros((*shape, 3)), np.full(shape, 2.0)
     item[row, place] = crossing.item[entry]
-    axis[row, place] = toward / distance[:, None]
-    cosine[row, place] = (distance + (own - other) * (own + other) / distance) / (2 * own)
+    axis[row, place] = direction
+    cosine[row, place] = along / spheres.radius[sphere[row]]
     largest = np.argsort(cosine, axis=1)
     rows = np.arange(len(sphere))[:, None]
     return Caps(sphere, item[rows, largest], axis[rows, largest], cosine[rows, largest])
@@ -157,7 +155,7 @@ def _inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -
     power = np.sum(toward**2, axis=1) + (spheres.radius[own] - spheres.radius[ball]) * (
         spheres.radius[own] + spheres.radius[ball]
     )
-    rest = power / 2 - np.sum((circles.center[circle] - spheres.center[own]) * toward, axis=1)
+    rest = power / 2 - np.sum(_offset(spheres, circles)[circle] * toward, axis=1)
     along_a = np.sum(circles.a[circle] * toward, axis=1)
     along_b = np.sum(circles.b[circle] * toward, axis=1)
     middle, half = above(along_a, along_b, rest)
@@ -165,6 +163,12 @@ def _inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -
     same = np.flatnonzero((np.abs(rest) < small) & (np.hypot(along_a, along_b) < small))
     half[same] = np.where(_between(spheres, own[same], circles.second[circle[same]], ball[same]), 0.0, np.pi)
     return middle, half
+
+
+def _offset(spheres: Spheres, circles: Circles) -> Floats:
+    """Centres of circles relative to those of their first spheres; their difference would lose digits far away."""
+    axis, along = radical_planes(spheres, circles.first, circles.second)
+    return axis * along[:, None]
 
 
 def _between(spheres: Spheres, first: Ints, second: Ints, ball: Ints) -> Bools:

@@ -92,7 +92,7 @@ def _rims(boundary: Boundary) -> _Rims:
     excess = (own - other) * (own + other) / distance
     radius = np.linalg.norm(circles.a[arcs.circle], axis=1)
     angle = arcs.start + arcs.sweep / 2
-    middle = (circles.at(arcs.circle, angle) - circles.center[arcs.circle]) / radius[:, None]
+    middle = circles.spoke(arcs.circle, angle) / radius[:, None]
     fold = np.sqrt((distance**2 - (own - other) ** 2) / ((own + other) ** 2 - distance**2))
     sides = (
         _Rims(first, axis, (distance + excess) / (2 * own), radius / own, middle, arcs.sweep / 2, fold),
