@@ -123,7 +123,7 @@ def _caps(spheres: Spheres, crossing: Neighbours, sphere: Ints) -> Caps:
 
 def _free_arcs(spheres: Spheres, circles: Circles, candidates: OpenCreases) -> tuple[Circles, FreeArcs]:
     """The gaps that the balls leave of each circle, and the circles that have any."""
-    middle, half = _inside_ball(spheres, circles, candidates.crease, candidates.ball)
+    middle, half = _crease_inside_ball(spheres, circles, candidates.crease, candidates.ball)
     real = half > 0
     known = _runs(candidates.covered)
     covered = Intervals(candidates.crease[real], (middle - half)[real], 2 * half[real])
@@ -141,27 +141,37 @@ def _runs(covered: Masks) -> Intervals:
     change = np.diff(bits.astype(np.int8), axis=1, prepend=0, append=0)
     circle, begin = np.nonzero(change == 1)
     end = np.nonzero(change == -1)[1]
-    edge = np.arange(BINS + 1) * (TURN / BINS)
+    edge: Floats = np.linspace(0.0, TURN, BINS + 1)
     return Intervals(circle, edge[begin], edge[end] - edge[begin])
 
 
-def _inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:
-    """Middle and half-width of the interval of each circle inside each ball.
+def inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:
+    """Middle and half-width of the interval of each circle, on its first sphere, inside each ball."""
+    offset = circles.center - spheres.center[circles.first]
+    return above(*_half_space(spheres, circles, circle, ball, offset))
 
-    On sphere i, ``|p − ck|² < rk²`` is linear: ``2 (p − ci) · (ck − ci) > |ck − ci|² + ri² − rk²``.
-    """
+
+def _half_space(
+    spheres: Spheres, circles: Circles, circle: Ints, ball: Ints, offset: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """On sphere i, ``|p − ck|² < rk²`` is linear: ``2 (p − ci) · (ck − ci) > |ck − ci|² + ri² − rk²``."""
     own = circles.first[circle]
     toward = spheres.center[ball] - spheres.center[own]
     power = np.sum(toward**2, axis=1) + (spheres.radius[own] - spheres.radius[ball]) * (
         spheres.radius[own] + spheres.radius[ball]
     )
-    rest = power / 2 - np.sum(_offset(spheres, circles)[circle] * toward, axis=1)
-    along_a = np.sum(circles.a[circle] * toward, axis=1)
-    along_b = np.sum(circles.b[circle] * toward, axis=1)
-    middle, half = above(along_a, along_b, rest)
-    small = COINCIDE * spheres.radius[own] * np.linalg.norm(toward, axis=1)
-    same = np.flatnonzero((np.abs(rest) < small) & (np.hypot(along_a, along_b) < small))
-    half[same] = np.where(_between(spheres, own[same], circles.second[circle[same]], ball[same]), 0.0, np.pi)
+    rest = power / 2 - np.sum(offset[circle] * toward, axis=1)
+    return np.sum(circles.a[circle] * toward, axis=1), np.sum(circles.b[circle] * toward, axis=1), rest
+
+
+def _crease_inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:
+    """The same for creases, with the tie rule for those that lie on the ball's sphere."""
+    a, b, rest = _half_space(spheres, circles, circle, ball, _offset(spheres, circles))
+    middle, half = above(a, b, rest)
+    small = COINCIDE * spheres.radius[circles.first[circle]] * spheres.radius[ball]
+    same = np.flatnonzero((np.abs(rest) < small) & (np.hypot(a, b) < small))
+    between = _between(spheres, circles.first[circle[same]], circles.second[circle[same]], ball[same])
+    half[same] = np.where(between, 0.0, np.pi)
     return middle, half
 
 

@@ -32,8 +32,8 @@ J3 is needed. (In its equation (10) the terms ``(z + r) / 2`` should read ``(z +
 integrals ``8r⁴ (z + r)``; the whole plane gives 4/3 πr³ with the weight 128r⁷, not 16r⁴.) The field x / 3 leaves each
 sphere its own pole and needs J1 and J2 only: ``V = ⅓ Σ (r_i A_i + c_i · N_i)`` with ``N_i = r_i² ∫ n dA``.
 
-*Derivatives.* Moving ball i changes the volume by N_i and the area through the creases: with β the angle between the two
-normals at a crease and ν the direction on sphere i into the cap, ``∂A/∂c_i = −Σ ∫ (n tan(β / 2) + ν) dl``.
+*Derivatives.* Moving ball i changes the volume by N_i and the area through the creases: with β the angle between the
+two normals at a crease and ν the direction on sphere i into the cap, ``∂A/∂c_i = −Σ ∫ (n tan(β / 2) + ν) dl``.
 """
 
 from typing import NamedTuple
@@ -154,7 +154,7 @@ def _free(boundary: Boundary, sphere: Ints, direction: Floats) -> Bools:
     row, entry = expand(crossing.start[sphere], crossing.start[sphere + 1])
     ball = crossing.item[entry]
     covered = np.sum((point[row] - spheres.center[ball]) ** 2, axis=1) < spheres.radius[ball] ** 2
-    return np.bincount(row[covered], minlength=len(sphere)) == 0
+    return np.asarray(np.bincount(row[covered], minlength=len(sphere)) == 0)
 
 
 def _unit_flux(rims: _Rims, count: int) -> Floats:
@@ -165,7 +165,7 @@ def _unit_flux(rims: _Rims, count: int) -> Floats:
 
 
 def _volume(spheres: Spheres, area: Floats, flux: Floats) -> float:
-    """``⅓ Σ (r_i A_i + c_i · N_i)``; the N_i add up to nothing, so that any origin serves and the middle is the best."""
+    """``⅓ Σ (r_i A_i + c_i · N_i)``; the N_i add up to nothing, so any origin serves, and the middle best."""
     center = spheres.center - spheres.center.mean(axis=0)
     return float(np.sum(spheres.radius * area + _dot(center, flux)) / 3)
 
