@@ -152,7 +152,7 @@ class Site:
     def _line_of_row(self) -> list[int]:
         column = next(column for tag in (*_CARTESIAN, *_FRACTIONAL) if (column := self.block.find_values(tag)))
         loop = column.get_loop()
-        item = self.block.find_loop_item(column.tag)
+        item = self.block.find_loop_item(column.tag.lower())  # compared in lower case
         if loop is None or item is None:
             return []
         return list(_lines_of_values(self.lines, item.line_number))[:: loop.width()]

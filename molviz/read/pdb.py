@@ -237,13 +237,17 @@ def _title(record: Texts, lines: Lines, source: str) -> str:
 def _connections(record: Texts, lines: Lines, source: str) -> list[str]:
     """Return a warning where serial numbers of CONECT leave their five columns; bonds are not read from there."""
     for line, text in lines.take(record == b"CONECT").texts():
-        if len(text) % 5 != 1 and re.search(r"\S{6,}", text[6:]):
+        serials = text[6:31].rstrip()
+        if len(serials) % 5 and re.search(r"\S{6,}", serials):
             return [note("CONECT with serial numbers run together is ignored", source, line)]
     return []
 
 
 def _assemblies(remarks: Lines, source: str) -> Mapping[str, tuple[AssemblyPart, ...]]:
-    """Return the assemblies of REMARK 350: for each biomolecule, chains and BIOMT operators that apply to them."""
+    """Return the assemblies of REMARK 350: for each biomolecule, chains and BIOMT operators that apply to them.
+
+    Raises InputError where a BIOMT row is no row of numbers, or the rows are not three to an operator.
+    """
     assemblies: dict[str, list[tuple[set[str], list[list[float]]]]] = {}
     parts: list[tuple[set[str], list[list[float]]]] = []
     for line, text in remarks.texts():
