@@ -1,7 +1,7 @@
 """Exact area and volume of a union of balls by contour integrals (Džurina & Plavka 2008).
 
 The free part H of a sphere is projected from a pole onto the tangent plane at the opposite point g (here g is a unit
-vector and the sphere has radius 1; t, s are coordinates along two axes that are right-handed with g, ``w = t² + s² + 4``):
+vector and the sphere has radius 1; t, s are coordinates along two axes right-handed with g, ``w = t² + s² + 4``):
 
     n · g = 8 / w − 1,    dA = 16 / w² dt ds.
 
@@ -10,8 +10,8 @@ of ``(t ds − s dt) / w^k`` is ``2 (1 − k) / w^k + 8k / w^(k+1)``,
 
     area of H = 2 J1  (+ 4π if Ω contains the pole),    ∫_H n · g dA = 8 J2.
 
-*The arcs.* Let an arc of the rim of a cap with axis k and angle ω bound H; h = cos ω, s = sin ω, γ = k · g. Its image is
-an arc of a circle, in the paper's letters, with q = h + γ (the rim passes through the pole where q = 0),
+*The arcs.* Let an arc of the rim of a cap with axis k and angle ω bound H; h = cos ω, s = sin ω, γ = k · g. Its image
+is an arc of a circle, in the paper's letters, with q = h + γ (the rim passes through the pole where q = 0),
 
     r0 = 2s / q,    t0² + s0² = 4 (1 − γ²) / q²,    A = 4 (1 + hγ) / q²,    D = A² − B² − C² = 16 / q²,
     r0² − A = −4h / q,    dφ = q dψ / (1 + n · g),    I1 = ∫ dφ / (A + B cos φ + C sin φ) = q Δψ / 4,
