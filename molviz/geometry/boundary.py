@@ -68,14 +68,19 @@ def _crossing(spheres: Spheres, near: Neighbours) -> tuple[Neighbours, Bools]:
     """The neighbours whose spheres meet in a circle, among balls that lie in no other; and which balls do."""
     count = len(spheres.radius)
     owner = np.repeat(np.arange(count), np.diff(near.start))
-    distance = np.linalg.norm(spheres.center[near.item] - spheres.center[owner], axis=1)
-    own, other = spheres.radius[owner], spheres.radius[near.item]
+    distance, own, other = _distances(spheres, owner, near.item)
     slack = TOUCH * np.minimum(own, other)
     larger = (other > own) | ((other == own) & (near.item < owner))
     inside: Bools = np.zeros(count, dtype=bool)
     inside[owner[larger & (distance <= other - own + slack)]] = True
     kept = (distance < own + other - slack) & ~inside[owner] & ~inside[near.item]
     return Neighbours(offsets(owner[kept], count), near.item[kept]), inside
+
+
+def _distances(spheres: Spheres, one: Ints, other: Ints) -> tuple[Floats, Floats, Floats]:
+    """Distances of pairs of centres, and the radii of both."""
+    distance = np.linalg.norm(spheres.center[other] - spheres.center[one], axis=1)
+    return np.asarray(distance), spheres.radius[one], spheres.radius[other]
 
 
 def _candidates(spheres: Spheres, crossing: Neighbours) -> OpenCreases:
@@ -165,13 +170,18 @@ def _half_space(
 
 
 def _crease_inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:
-    """The same for creases, with the tie rule for those that lie on the ball's sphere."""
+    """The same for creases, with the tie rule for those that lie on the ball's sphere.
+
+    A ball that is apart from one of the crease's spheres does not cut it: the third crease would be missing.
+    """
     a, b, rest = _half_space(spheres, circles, circle, ball, _offset(spheres, circles))
     middle, half = above(a, b, rest)
     small = COINCIDE * spheres.radius[circles.first[circle]] * spheres.radius[ball]
     same = np.flatnonzero((np.abs(rest) < small) & (np.hypot(a, b) < small))
     between = _between(spheres, circles.first[circle[same]], circles.second[circle[same]], ball[same])
     half[same] = np.where(between, 0.0, np.pi)
+    distance, own, other = _distances(spheres, circles.second[circle], ball)
+    half[distance >= own + other - TOUCH * np.minimum(own, other)] = 0.0
     return middle, half
 
 

@@ -166,7 +166,7 @@ def _unit_flux(rims: _Rims, count: int) -> Floats:
 
 def _volume(spheres: Spheres, area: Floats, flux: Floats) -> float:
     """``⅓ Σ (r_i A_i + c_i · N_i)``; the N_i add up to nothing, so any origin serves, and the middle best."""
-    center = spheres.center - spheres.center.mean(axis=0)
+    center = spheres.center - np.sum(spheres.center, axis=0) / max(len(area), 1)
     return float(np.sum(spheres.radius * area + _dot(center, flux)) / 3)
 
 
