@@ -5,9 +5,9 @@ which two spheres meet. A crease is cut by every third ball that meets both sphe
 
 Special position. Balls inside another (or equal to an earlier one) are left out, balls that barely touch are apart
 (``TOUCH``). Where several circles of a sphere pass through one point, or touch, rounding makes or loses only arcs as
-short as rounding, which no sum over arcs feels. What must be decided consistently is a crease (i, j) that as a whole
-lies on sphere k (``COINCIDE``): then i, j and k belong to one pencil with their centres in a line, only the two
-outermost spheres reach the boundary, so ball k covers the crease unless its centre lies between those of i and j.
+short as rounding, which no sum over arcs feels. What must be decided consistently are three spheres whose creases are
+one circle (``COINCIDE``): they belong to a pencil, with their centres in a line, and only the two outermost reach the
+boundary, so ball k covers the crease of i and j unless its centre lies between theirs.
 """
 
 from collections.abc import Iterator
@@ -176,11 +176,13 @@ def _crease_inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: 
     """
     a, b, rest = _half_space(spheres, circles, circle, ball, _offset(spheres, circles))
     middle, half = above(a, b, rest)
-    small = COINCIDE * spheres.radius[circles.first[circle]] * spheres.radius[ball]
+    first, second = circles.first[circle], circles.second[circle]
+    small = COINCIDE * spheres.radius[first] * _distances(spheres, first, ball)[0]
     same = np.flatnonzero((np.abs(rest) < small) & (np.hypot(a, b) < small))
-    between = _between(spheres, circles.first[circle[same]], circles.second[circle[same]], ball[same])
-    half[same] = np.where(between, 0.0, np.pi)
-    distance, own, other = _distances(spheres, circles.second[circle], ball)
+    same = same[_on_sphere(spheres, second[same], ball[same], first[same])]
+    same = same[_on_sphere(spheres, ball[same], first[same], second[same])]
+    half[same] = np.where(_between(spheres, first[same], second[same], ball[same]), 0.0, np.pi)
+    distance, own, other = _distances(spheres, second, ball)
     half[distance >= own + other - TOUCH * np.minimum(own, other)] = 0.0
     return middle, half
 
@@ -189,6 +191,18 @@ def _offset(spheres: Spheres, circles: Circles) -> Floats:
     """Centres of circles relative to those of their first spheres; their difference would lose digits far away."""
     axis, along = radical_planes(spheres, circles.first, circles.second)
     return axis * along[:, None]
+
+
+def _on_sphere(spheres: Spheres, first: Ints, second: Ints, ball: Ints) -> Bools:
+    """Whether two creases of the first sphere are one circle; of two nearly equal spheres and a third, not all are."""
+    axis, along = radical_planes(spheres, first, second)
+    distance, own, other = _distances(spheres, first, ball)
+    toward = spheres.center[ball] - spheres.center[first]
+    deep = np.sum(axis * toward, axis=1)
+    aside = np.linalg.norm(toward - axis * deep[:, None], axis=1) * np.sqrt(np.maximum(own**2 - along**2, 0.0))
+    rest = (np.sum(toward**2, axis=1) + (own - other) * (own + other)) / 2 - deep * along
+    small = COINCIDE * own * distance
+    return np.asarray((np.abs(rest) < small) & (aside < small))
 
 
 def _between(spheres: Spheres, first: Ints, second: Ints, ball: Ints) -> Bools:
