@@ -1,8 +1,5 @@
 """The command line: options become values, then one call each."""
 
-import click
+from molviz.cli.main import main
 
-
-@click.group()
-def main() -> None:
-    """Exact vector drawings and exact numbers of molecules made of spheres."""
+__all__ = ["main"]

@@ -116,6 +116,7 @@ _COMPARISONS: dict[str, Callable[[Floats, float], Bools]] = {
 }
 _RANGE = re.compile(r"(-?\d+)[-:](-?\d+)$")
 _LEADING_NUMBER = re.compile(r"-?\d+")
+_DEPTH = 100  # far from what the stack of the interpreter bears
 _STARTS = {*_PROPERTIES, *_TEXTS, *_RANGES, *_NUMBERS, "not", "within"}
 _RESERVED = {"and", "or", "of", *_STARTS, ""}
 
@@ -159,7 +160,7 @@ class _Parser:
     def __init__(self, molecule: Molecule, expression: str) -> None:
         self.molecule, self.text = molecule, expression
         self.tokens = _tokens(expression)
-        self.at = 0
+        self.at = self.depth = 0
 
     @property
     def token(self) -> _Token:
@@ -194,6 +195,15 @@ class _Parser:
         return chosen
 
     def simple(self) -> Bools:
+        """Consume one simple selection, counting how deep it stands within others."""
+        if self.depth >= _DEPTH:
+            raise self.error(f"at most {_DEPTH} selections within each other")
+        self.depth += 1
+        chosen = self.one()
+        self.depth -= 1
+        return chosen
+
+    def one(self) -> Bools:
         word = self.word
         if word == "(":
             return self.parenthesis()
@@ -233,7 +243,7 @@ class _Parser:
 
     def values(self) -> list[str]:
         found: list[str] = []
-        while self.token.quoted or (self.word not in _RESERVED and re.match(r"[^()<>=!]", self.word)):
+        while self.token.quoted or (self.word not in _RESERVED and re.match(r"[^()<>=!\"]", self.word)):
             found.append(self.take())
         if not found:
             raise self.error("a value (in double quotes if it is a word of the language)")

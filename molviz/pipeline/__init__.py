@@ -1,1 +1,1 @@
-"""Every stage in order: one module per command."""
+"""Every stage in order: one module per thing a user can ask for."""

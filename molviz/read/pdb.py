@@ -15,7 +15,7 @@ from molviz.arrays import Bools, Floats, Ints, Strings
 from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_atom_name
 from molviz.read.atoms import AtomTable, models_of
-from molviz.read.numbers import Texts, is_number, numbers
+from molviz.read.numbers import Texts, number_of, numbers
 from molviz.read.reading import AssemblyPart, Reading
 from molviz.read.source import note
 
@@ -152,9 +152,9 @@ def _positions(atoms: Lines, source: str) -> Floats:
 def _optional(atoms: Lines, what: str, first: int, last: int, default: float, source: str) -> tuple[Floats, list[str]]:
     """Return a column that may be blank, and a warning where it is neither blank nor a number."""
     texts, which = np.unique(atoms.field(first, last), return_inverse=True)
-    readable = np.array([is_number(text) for text in texts.tolist()])
-    values = np.full(len(texts), default)
-    values[readable] = texts[readable].astype(float)
+    values = np.array([number_of(text) for text in texts.tolist()], dtype=float)
+    readable = ~np.isnan(values)
+    values[~readable] = default
     wrong = ~readable & (np.char.strip(texts) != b"")
     rows = np.flatnonzero(wrong[which])
     if not len(rows):
@@ -272,9 +272,11 @@ def _chains(text: str) -> set[str]:
 
 
 def _operator_row(words: list[str], source: str, line: int) -> list[float]:
-    if len(words) != 6 or not all(is_number(word.encode()) for word in words[2:]):
+    values = [number_of(word.encode()) for word in words[2:]]
+    row = [value for value in values if value is not None]
+    if len(words) != 6 or len(row) != 4:
         raise InputError("BIOMT without four numbers; expected a row of R and t", source, line)
-    return [float(word) for word in words[2:]]
+    return row
 
 
 def _operators(rows: list[list[float]], source: str) -> Floats:
