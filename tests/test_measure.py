@@ -172,6 +172,20 @@ def test_a_cube_of_balls_is_the_limit_of_general_position(radius: float) -> None
     assert np.allclose(measure_spheres(cube).area, area, rtol=0, atol=2e-6)
 
 
+@given(st.integers(0, 10**6), st.sampled_from([1e-10, 1e-9, 1e-8, 1e-6]))
+@settings(max_examples=60, deadline=None)
+def test_lattice_points_are_the_limit_of_nearly_lattice_points(seed: int, jitter: float) -> None:
+    """Tangent, coincident, equal and nearly equal spheres, and pencils, by chance of few coordinates and radii."""
+    random = np.random.default_rng(seed)
+    count = random.integers(2, 12)
+    center = random.integers(0, random.integers(2, 5), (count, 3)) * [1.0, 1.0, seed % 3 > 0]
+    radius = np.sqrt(random.choice([0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 3, 5, 9], count))
+    shaken = Spheres(center + random.uniform(-jitter, jitter, center.shape), radius * (1 + jitter * random.random(count)))
+    exact, near = measure_spheres(Spheres(center, radius)), measure_spheres(shaken)
+    assert abs(exact.area.sum() - near.area.sum()) < 1e-5 * exact.area.sum()
+    assert abs(exact.volume - near.volume) < 1e-5 * exact.volume
+
+
 # ---- the independent method
 
 
