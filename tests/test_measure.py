@@ -180,7 +180,8 @@ def test_lattice_points_are_the_limit_of_nearly_lattice_points(seed: int, jitter
     count = random.integers(2, 12)
     center = random.integers(0, random.integers(2, 5), (count, 3)) * [1.0, 1.0, seed % 3 > 0]
     radius = np.sqrt(random.choice([0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 3, 5, 9], count))
-    shaken = Spheres(center + random.uniform(-jitter, jitter, center.shape), radius * (1 + jitter * random.random(count)))
+    moved = center + random.uniform(-jitter, jitter, center.shape)
+    shaken = Spheres(moved, radius * (1 + jitter * random.random(count)))
     exact, near = measure_spheres(Spheres(center, radius)), measure_spheres(shaken)
     assert abs(exact.area.sum() - near.area.sum()) < 1e-5 * exact.area.sum()
     assert abs(exact.volume - near.volume) < 1e-5 * exact.volume
