@@ -142,12 +142,25 @@ def _free_arcs(spheres: Spheres, circles: Circles, candidates: OpenCreases) -> t
 
 def _runs(covered: Masks) -> Intervals:
     """The bins known to be covered, as intervals. Each ends inside a ball that reaches on: no gap begins at its end."""
-    bits = np.unpackbits(covered.astype("<u8").view(np.uint8).reshape(-1, 8), axis=1, bitorder="little")
-    change = np.diff(bits.astype(np.int8), axis=1, prepend=0, append=0)
-    circle, begin = np.nonzero(change == 1)
-    end = np.nonzero(change == -1)[1]
     edge: Floats = np.linspace(0.0, TURN, BINS + 1)
-    return Intervals(circle, edge[begin], edge[end] - edge[begin])
+    parts = [Intervals(np.empty(0, dtype=np.int64), np.empty(0), np.empty(0))]
+    circle = np.flatnonzero(covered)
+    rest = covered[circle]
+    while len(circle):
+        lowest = rest & (~rest + np.uint64(1))
+        after = rest + lowest  # the carry runs through the lowest run of bits
+        run = rest & ~after
+        begin = _bit_number(lowest)
+        end = _bit_number(run + lowest)
+        parts.append(Intervals(circle, edge[begin], edge[end] - edge[begin]))
+        rest = rest & after
+        circle, rest = circle[rest != 0], rest[rest != 0]
+    return Intervals(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def _bit_number(power: Masks) -> Ints:
+    """The exponents of powers of two; that of 2⁶⁴, which is 0 in 64 bits, is 64."""
+    return np.where(power == 0, BINS, np.frexp(power.astype(np.float64))[1] - 1)
 
 
 def inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:
