@@ -2,21 +2,31 @@
 
 A sphere's part of the boundary is what no neighbouring ball covers; it is bounded by arcs of creases, the circles in
 which two spheres meet. A crease is cut by every third ball that meets both spheres.
+
+Special position. Balls inside another (or equal to an earlier one) are left out, balls that barely touch are apart
+(``TOUCH``). Where several circles of a sphere pass through one point, or touch, rounding makes or loses only arcs as
+short as rounding, which no sum over arcs feels. What must be decided consistently are three spheres whose creases are
+one circle (``COINCIDE``): they belong to a pencil, with their centres in a line, and only the two outermost reach the
+boundary, so ball k covers the crease of i and j unless its centre lies between theirs.
 """
 
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.circles import Circles, creases
+from molviz.geometry.caps import BINS, Caps, Masks, OpenCreases, open_creases
+from molviz.geometry.circles import Circles, creases, radical_planes
 from molviz.geometry.grid import Neighbours, neighbours
-from molviz.geometry.intervals import Intervals, above, gaps
-from molviz.geometry.rows import blocks, expand
+from molviz.geometry.intervals import TURN, Intervals, above, gaps
+from molviz.geometry.rows import blocks, expand, offsets
+from molviz.geometry.tolerances import COINCIDE, TOUCH
 from molviz.model.spheres import Spheres
 
-BLOCK_ENTRIES = 1 << 21  # entries (sphere, circle, neighbour) tested at a time
+BLOCK_ENTRIES = 1 << 17  # entries (sphere, cap, cap) at a time: their temporaries stay in cache
+THREADS = 2
 
 
 class FreeArcs(NamedTuple):
@@ -34,108 +44,181 @@ class FreeArcs(NamedTuple):
 
 
 class Boundary(NamedTuple):
-    """The union boundary of ``spheres``: all creases that are not entirely covered, and their free arcs."""
+    """The union boundary of ``spheres``: the creases with a free part, ordered by their spheres, and the free arcs."""
 
     spheres: Spheres
-    neighbours: Neighbours
+    neighbours: Neighbours  # the balls that meet each sphere
+    crossing: Neighbours  # the balls that cover a cap of each sphere and lie in no other ball
+    inside: Bools  # (n,) balls that lie in another, or equal an earlier one
     circles: Circles  # first < second
     arcs: FreeArcs
-
-
-class _Caps(NamedTuple):
-    """Neighbours of a block of spheres, padded to a rectangle: ball k covers ``x · axis > height`` of a unit sphere."""
-
-    item: Ints  # (s, p) the neighbours, −1 for padding
-    axis: Floats  # (s, p, 3)
-    height: Floats  # (s, p) cosine of the cap's angle; ≤ −1 if the ball holds the sphere, ≥ 1 if it leaves it free
 
 
 def union_boundary(spheres: Spheres, near: Neighbours | None = None) -> Boundary:
     """Return the free arcs of all creases of n spheres, linear in n for a hard sphere model (Theorem 4.1)."""
     near = neighbours(spheres) if near is None else near
-    first, second, alive, cuts = _uncovered_pairs(spheres, near)
-    circles, met = creases(spheres, first[alive], second[alive])
-    number = np.full(len(first), -1)
-    number[alive[met]] = np.arange(len(met))
-    pair, ball = cuts
-    ball, circle = ball[number[pair] >= 0], number[pair[number[pair] >= 0]]
-    middle, half = inside_ball(spheres, circles, circle, ball)
-    real = half > 0
-    free = gaps(Intervals(circle[real], (middle - half)[real], 2 * half[real]), len(circles.first))
-    name = np.append(ball[real], -1)  # row −1, no interval, becomes sphere −1
-    arcs = FreeArcs(free.circle, free.start, free.sweep, name[free.before], name[free.after])
-    return Boundary(spheres, near, circles, arcs)
+    crossing, inside = _crossing(spheres, near)
+    candidates = _candidates(spheres, crossing)
+    circles, _ = creases(spheres, candidates.first, candidates.second)
+    circles, arcs = _free_arcs(spheres, circles, candidates)
+    return Boundary(spheres, near, crossing, inside, circles, arcs)
 
 
-def inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:
-    """Middle and half-width of the interval of each circle inside each ball.
-
-    On sphere i, ``|p − ck|² < rk²`` is linear: ``2 (p − ci) · (ck − ci) > |ck − ci|² + ri² − rk²``.
-    """
-    own = circles.first[circle]
-    toward = spheres.center[ball] - spheres.center[own]
-    power = np.sum(toward**2, axis=1) + spheres.radius[own] ** 2 - spheres.radius[ball] ** 2
-    middle_part = np.sum((circles.center[circle] - spheres.center[own]) * toward, axis=1)
-    along_a = np.sum(circles.a[circle] * toward, axis=1)
-    along_b = np.sum(circles.b[circle] * toward, axis=1)
-    return above(along_a, along_b, power / 2 - middle_part)
-
-
-def _uncovered_pairs(spheres: Spheres, near: Neighbours) -> tuple[Ints, Ints, Ints, tuple[Ints, Ints]]:
-    """All pairs i < j, the rows of those whose crease no third ball covers, and the (pair row, ball) that cut these."""
-    owner = np.repeat(np.arange(len(near.start) - 1), np.diff(near.start))
-    later = np.flatnonzero(near.item > owner)
-    pair_of = np.full(len(near.item), -1)
-    pair_of[later] = np.arange(len(later))
-    alive: Bools = np.zeros(len(later), dtype=bool)
-    pairs, balls = [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.int64)]
-    for sphere, caps in _blocks_of_caps(spheres, near):
-        covered, cut = _tests(caps)
-        row = near.start[sphere][:, None] + np.arange(caps.item.shape[1])
-        wanted = (caps.item > sphere[:, None]) & (np.abs(caps.height) < 1) & ~covered.any(axis=2)
-        block, circle, ball = np.nonzero(cut & wanted[:, :, None])
-        pairs.append(pair_of[row[block, circle]])
-        balls.append(caps.item[block, ball])
-        alive[pair_of[row[wanted]]] = True
-    return owner[later], near.item[later], np.flatnonzero(alive), (np.concatenate(pairs), np.concatenate(balls))
+def _crossing(spheres: Spheres, near: Neighbours) -> tuple[Neighbours, Bools]:
+    """The neighbours whose spheres meet in a circle, among balls that lie in no other; and which balls do."""
+    count = len(spheres.radius)
+    owner = np.repeat(np.arange(count), np.diff(near.start))
+    distance, own, other = _distances(spheres, owner, near.item)
+    slack = TOUCH * np.minimum(own, other)
+    larger = (other > own) | ((other == own) & (near.item < owner))
+    inside: Bools = np.zeros(count, dtype=bool)
+    inside[owner[larger & (distance <= other - own + slack)]] = True
+    kept = (distance < own + other - slack) & ~inside[owner] & ~inside[near.item]
+    return Neighbours(offsets(owner[kept], count), near.item[kept]), inside
 
 
-def _blocks_of_caps(spheres: Spheres, near: Neighbours) -> Iterator[tuple[Ints, _Caps]]:
+def _distances(spheres: Spheres, one: Ints, other: Ints) -> tuple[Floats, Floats, Floats]:
+    """Distances of pairs of centres, and the radii of both."""
+    distance = np.linalg.norm(spheres.center[other] - spheres.center[one], axis=1)
+    return np.asarray(distance), spheres.radius[one], spheres.radius[other]
+
+
+def _candidates(spheres: Spheres, crossing: Neighbours) -> OpenCreases:
+    """The creases that may have a free part, of all spheres; crease numbers run through."""
+    empty = np.empty(0, dtype=np.int64)
+    with ThreadPoolExecutor(THREADS) as pool:
+        parts = list(pool.map(lambda sphere: open_creases(_caps(spheres, crossing, sphere)), _blocks(crossing)))
+    parts.append(OpenCreases(empty, empty, empty.astype(np.uint64), empty, empty))
+    begin = np.cumsum([0] + [len(part.first) for part in parts])
+    shifted = [part._replace(crease=part.crease + at) for part, at in zip(parts, begin, strict=False)]
+    return _in_order(OpenCreases(*(np.concatenate(column) for column in zip(*shifted, strict=True))))
+
+
+def _in_order(creases: OpenCreases) -> OpenCreases:
+    order = np.lexsort((creases.second, creases.first))
+    rank = np.empty(len(order), dtype=np.int64)
+    rank[order] = np.arange(len(order))
+    first, second, covered = creases.first[order], creases.second[order], creases.covered[order]
+    return OpenCreases(first, second, covered, rank[creases.crease], creases.ball)
+
+
+def _blocks(crossing: Neighbours) -> Iterator[Ints]:
     """Spheres with equally many neighbours side by side, so that little is padded."""
-    count = np.diff(near.start)
+    count = np.diff(crossing.start)
     order = np.argsort(count, kind="stable")
     order = order[np.searchsorted(count[order], 1) :]
     for block in blocks(count[order] ** 2, BLOCK_ENTRIES):
-        yield order[block], _caps(spheres, near, order[block])
+        yield order[block]
 
 
-def _caps(spheres: Spheres, near: Neighbours, sphere: Ints) -> _Caps:
-    count = near.start[sphere + 1] - near.start[sphere]
-    item = np.full((len(sphere), int(count.max())), -1)
-    row, entry = expand(near.start[sphere], near.start[sphere + 1])
-    item[row, entry - near.start[sphere][row]] = near.item[entry]
-    toward = spheres.center[item] - spheres.center[sphere][:, None]
-    distance = np.linalg.norm(toward, axis=2)
-    own, other = spheres.radius[sphere][:, None], spheres.radius[item]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        axis = np.nan_to_num(toward / distance[:, :, None])
-        height = (distance**2 + own**2 - other**2) / (2 * distance * own)
-    height = np.where(distance <= other - own, -2.0, np.where(distance <= own - other, 2.0, height))
-    buried_twin = (distance == 0) & (own == other) & (item > sphere[:, None])
-    height = np.where((item < 0) | buried_twin, 2.0, height)
-    return _Caps(item, axis, height)
+def _caps(spheres: Spheres, crossing: Neighbours, sphere: Ints) -> Caps:
+    """The caps of the given spheres; ``cos ω = t / ri``, the radical plane lying at t."""
+    row, entry = expand(crossing.start[sphere], crossing.start[sphere + 1])
+    place = entry - crossing.start[sphere][row]
+    direction, along = radical_planes(spheres, sphere[row], crossing.item[entry])
+    shape = len(sphere), int(place.max()) + 1
+    item, axis, cosine = np.full(shape, -1), np.zeros((*shape, 3)), np.full(shape, 2.0)
+    item[row, place] = crossing.item[entry]
+    axis[row, place] = direction
+    cosine[row, place] = along / spheres.radius[sphere[row]]
+    largest = np.argsort(cosine, axis=1)
+    rows = np.arange(len(sphere))[:, None]
+    return Caps(sphere, item[rows, largest], axis[rows, largest], cosine[rows, largest])
 
 
-def _tests(caps: _Caps) -> tuple[Bools, Bools]:
-    """Whether circle p of a sphere is (covered by, cut by) cap k: two arrays (s, p, k).
+def _free_arcs(spheres: Spheres, circles: Circles, candidates: OpenCreases) -> tuple[Circles, FreeArcs]:
+    """The gaps that the balls leave of each circle, and the circles that have any."""
+    middle, half = _crease_inside_ball(spheres, circles, candidates.crease, candidates.ball)
+    real = half > 0
+    known = _runs(candidates.covered)
+    covered = Intervals(candidates.crease[real], (middle - half)[real], 2 * half[real])
+    together = Intervals(*(np.concatenate(column) for column in zip(covered, known, strict=True)))
+    free = gaps(together, len(circles.first))
+    name = np.append(candidates.ball[real], np.full(len(known.circle) + 1, -1))  # row −1: no interval, no ball
+    open_circles, number = np.unique(free.circle, return_inverse=True)
+    arcs = FreeArcs(number, free.start, free.sweep, name[free.before], name[free.after])
+    return circles.take(open_circles), arcs
 
-    On circle p, at angle arccos g between the axes, ``x · axis_k`` runs over ``c_p g ± s_p √(1 − g²)``; compared with
-    c_k without a root: ``(c_k − c_p g)²`` against ``s_p² (1 − g²)``.
+
+def _runs(covered: Masks) -> Intervals:
+    """The bins known to be covered, as intervals. Each ends inside a ball that reaches on: no gap begins at its end."""
+    edge: Floats = np.linspace(0.0, TURN, BINS + 1)
+    parts = [Intervals(np.empty(0, dtype=np.int64), np.empty(0), np.empty(0))]
+    circle = np.flatnonzero(covered)
+    rest = covered[circle]
+    while len(circle):
+        lowest = rest & (~rest + np.uint64(1))
+        after = rest + lowest  # the carry runs through the lowest run of bits
+        run = rest & ~after
+        begin = _bit_number(lowest)
+        end = _bit_number(run + lowest)
+        parts.append(Intervals(circle, edge[begin], edge[end] - edge[begin]))
+        rest = rest & after
+        circle, rest = circle[rest != 0], rest[rest != 0]
+    return Intervals(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def _bit_number(power: Masks) -> Ints:
+    """The exponents of powers of two; that of 2⁶⁴, which is 0 in 64 bits, is 64."""
+    return np.where(power == 0, BINS, np.frexp(power.astype(np.float64))[1] - 1)
+
+
+def inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:
+    """Middle and half-width of the interval of each circle, on its first sphere, inside each ball."""
+    offset = circles.center - spheres.center[circles.first]
+    return above(*_half_space(spheres, circles, circle, ball, offset))
+
+
+def _half_space(
+    spheres: Spheres, circles: Circles, circle: Ints, ball: Ints, offset: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """On sphere i, ``|p − ck|² < rk²`` is linear: ``2 (p − ci) · (ck − ci) > |ck − ci|² + ri² − rk²``."""
+    own = circles.first[circle]
+    toward = spheres.center[ball] - spheres.center[own]
+    power = np.sum(toward**2, axis=1) + (spheres.radius[own] - spheres.radius[ball]) * (
+        spheres.radius[own] + spheres.radius[ball]
+    )
+    rest = power / 2 - np.sum(offset[circle] * toward, axis=1)
+    return np.sum(circles.a[circle] * toward, axis=1), np.sum(circles.b[circle] * toward, axis=1), rest
+
+
+def _crease_inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:
+    """The same for creases, with the tie rule for those that lie on the ball's sphere.
+
+    A ball that is apart from one of the crease's spheres does not cut it: the third crease would be missing.
     """
-    cosine = caps.axis @ caps.axis.transpose(0, 2, 1)
-    rest = caps.height[:, None, :] - caps.height[:, :, None] * cosine
-    reach = np.maximum(1 - caps.height**2, 0.0)[:, :, None] * np.maximum(1 - cosine**2, 0.0)
-    itself = np.arange(caps.item.shape[1])
-    rest[:, itself, itself] = 2.0
-    cut = rest**2 < reach
-    return (rest < 0) & ~cut, cut
+    a, b, rest = _half_space(spheres, circles, circle, ball, _offset(spheres, circles))
+    middle, half = above(a, b, rest)
+    first, second = circles.first[circle], circles.second[circle]
+    small = COINCIDE * spheres.radius[first] * _distances(spheres, first, ball)[0]
+    same = np.flatnonzero((np.abs(rest) < small) & (np.hypot(a, b) < small))
+    same = same[_on_sphere(spheres, second[same], ball[same], first[same])]
+    same = same[_on_sphere(spheres, ball[same], first[same], second[same])]
+    half[same] = np.where(_between(spheres, first[same], second[same], ball[same]), 0.0, np.pi)
+    distance, own, other = _distances(spheres, second, ball)
+    half[distance >= own + other - TOUCH * np.minimum(own, other)] = 0.0
+    return middle, half
+
+
+def _offset(spheres: Spheres, circles: Circles) -> Floats:
+    """Centres of circles relative to those of their first spheres; their difference would lose digits far away."""
+    axis, along = radical_planes(spheres, circles.first, circles.second)
+    return axis * along[:, None]
+
+
+def _on_sphere(spheres: Spheres, first: Ints, second: Ints, ball: Ints) -> Bools:
+    """Whether two creases of the first sphere are one circle; of two nearly equal spheres and a third, not all are."""
+    axis, along = radical_planes(spheres, first, second)
+    distance, own, other = _distances(spheres, first, ball)
+    toward = spheres.center[ball] - spheres.center[first]
+    deep = np.sum(axis * toward, axis=1)
+    aside = np.linalg.norm(toward - axis * deep[:, None], axis=1) * np.sqrt(np.maximum(own**2 - along**2, 0.0))
+    rest = (np.sum(toward**2, axis=1) + (own - other) * (own + other)) / 2 - deep * along
+    small = COINCIDE * own * distance
+    return np.asarray((np.abs(rest) < small) & (aside < small))
+
+
+def _between(spheres: Spheres, first: Ints, second: Ints, ball: Ints) -> Bools:
+    """Whether the centre of a ball of the pencil of two spheres lies between theirs."""
+    to_first, to_second = (spheres.center[end] - spheres.center[ball] for end in (first, second))
+    return np.asarray(np.sum(to_first * to_second, axis=1) < 0)

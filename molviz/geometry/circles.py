@@ -22,9 +22,11 @@ class Circles(NamedTuple):
 
     def at(self, circle: Ints, angle: Floats) -> Floats:
         """Return the points (k, 3) at the given angles of the given circles."""
-        return self.center[circle] + (
-            self.a[circle] * np.cos(angle)[:, None] + self.b[circle] * np.sin(angle)[:, None]
-        )
+        return self.center[circle] + self.spoke(circle, angle)
+
+    def spoke(self, circle: Ints, angle: Floats) -> Floats:
+        """Return the same points relative to the circles' centres."""
+        return self.a[circle] * np.cos(angle)[:, None] + self.b[circle] * np.sin(angle)[:, None]
 
     def take(self, rows: Ints) -> "Circles":
         """Return the given circles, in that order."""
@@ -51,18 +53,23 @@ def circles_about(first: Ints, second: Ints, center: Floats, axis: Floats, radiu
     return Circles(first, second, center, e * radius[:, None], f * radius[:, None])
 
 
-def creases(spheres: Spheres, first: Ints, second: Ints) -> tuple[Circles, Ints]:
-    """Return the circles in which the given pairs of spheres meet, and the pairs' rows that do meet in one.
-
-    The radical plane lies at ``t = (d² + ri² − rj²) / 2d`` from ci towards cj; the radius is ``√(ri² − t²)``. Pairs
-    that are nested or concentric have no circle.
-    """
+def radical_planes(spheres: Spheres, first: Ints, second: Ints) -> tuple[Floats, Floats]:
+    """Return the axis (m, 3) from ci to cj and ``t = (d² + ri² − rj²) / 2d``, how far along it the spheres meet."""
     between = spheres.center[second] - spheres.center[first]
     distance = np.linalg.norm(between, axis=1)
     own, other = spheres.radius[first], spheres.radius[second]
+    return between / distance[:, None], (distance + (own - other) * (own + other) / distance) / 2
+
+
+def creases(spheres: Spheres, first: Ints, second: Ints) -> tuple[Circles, Ints]:
+    """Return the circles in which the given pairs of spheres meet, and the pairs' rows that do meet in one.
+
+    Their radius is ``√(ri² − t²)``. Pairs that are nested or concentric have no circle.
+    """
+    distance = np.linalg.norm(spheres.center[second] - spheres.center[first], axis=1)
+    own, other = spheres.radius[first], spheres.radius[second]
     rows = np.flatnonzero((distance > np.abs(own - other)) & (distance < own + other))
-    axis = between[rows] / distance[rows, None]
-    along = (distance[rows] + (own[rows] - other[rows]) * (own[rows] + other[rows]) / distance[rows]) / 2
+    axis, along = radical_planes(spheres, first[rows], second[rows])
     radius = np.sqrt(np.maximum((own[rows] - along) * (own[rows] + along), 0.0))
     center = spheres.center[first[rows]] + axis * along[:, None]
     return circles_about(first[rows], second[rows], center, axis, radius), rows

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
+from molviz.geometry.rows import ordered
 
 TURN = 2.0 * np.pi
 
@@ -64,10 +65,10 @@ def gaps(hidden: Intervals, count: int) -> Gaps:
     start = np.concatenate([start, start[wraps] - TURN])
     end = np.concatenate([end, end[wraps] - TURN])
 
-    by_end = np.lexsort((end, circle))
+    by_end = ordered(circle, end)
     rank = np.empty(len(row), dtype=np.int64)
     rank[by_end] = np.arange(len(row))
-    by_start = np.lexsort((start, circle))
+    by_start = ordered(circle, start)
     circle, start, row_sorted = circle[by_start], start[by_start], row[by_start]
     farthest = by_end[np.maximum.accumulate(rank[by_start])]  # of this circle: ranks of earlier circles are smaller
 
@@ -105,5 +106,5 @@ def _whole(circle: Ints, count: int) -> Gaps:
 
 def _ordered(*parts: Gaps) -> Gaps:
     columns = [np.concatenate(column) for column in zip(*parts, strict=True)]
-    order = np.lexsort((columns[1], columns[0]))
+    order = ordered(columns[0], columns[1])
     return Gaps(*(column[order] for column in columns))

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from molviz.arrays import Ints
+from molviz.arrays import Floats, Ints
 
 
 def expand(begin: Ints, end: Ints) -> tuple[Ints, Ints]:
@@ -29,3 +29,18 @@ def blocks(size: Ints, limit: int) -> Iterator[slice]:
 def offsets(owner: Ints, count: int) -> Ints:
     """Return the CSR offsets (count + 1,) of rows sorted by owner."""
     return np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=count))])
+
+
+def ordered(owner: Ints, value: Floats) -> Ints:
+    """Return ``np.lexsort((value, owner))`` for m rows, faster where few values of an owner nearly agree.
+
+    One sort by a single key, owner and value to about ten digits, and the real thing only if that left any pair of
+    neighbours in the wrong order.
+    """
+    if len(value) == 0:
+        return np.empty(0, dtype=np.int64)
+    low, high = float(value.min()), float(value.max())
+    order = np.argsort(owner + (value - low) / (high - low + 1.0) * 0.999, kind="stable")
+    sorted_owner, sorted_value = owner[order], value[order]
+    wrong = (sorted_owner[1:] == sorted_owner[:-1]) & (sorted_value[1:] < sorted_value[:-1])
+    return np.lexsort((value, owner)) if wrong.any() else order

@@ -1,0 +1,111 @@
+"""``molviz measure``: options become values, measurements become a table, CSV or JSON."""
+
+import csv
+import json
+import sys
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import click
+
+from molviz.cli.batch import for_each
+from molviz.cli.options import input_options, load_and_warn, wanted_from
+from molviz.model.radii import TABLES
+from molviz.pipeline.inputs import Wanted
+from molviz.pipeline.measure import PER, Measurement, Part, measurement
+
+Row = dict[str, Any]
+
+
+@click.command("measure")
+@click.argument("inputs", nargs=-1, required=True, metavar="INPUT...")
+@click.option("--per", type=click.Choice(PER), help="Areas of all atoms, residues or chains as well.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object on standard output.")
+@click.option("--csv", "as_csv", is_flag=True, help="Comma-separated values, to the last digit.")
+@input_options
+def measure_command(
+    inputs: tuple[str, ...], per: str | None, as_json: bool, as_csv: bool, quiet: bool, strict: bool, **options: Any
+) -> None:
+    """Tell the exact area (Å²) and volume (Å³) of the union of the balls.
+
+    With --probe 1.4 the area is the solvent-accessible one. Of a selection, area and volume are what it has alone;
+    exposed is what the rest of the model leaves free of its area, and buried the difference.
+
+    \b
+    Examples:
+      molviz measure 4hhb.pdb --probe 1.4 --no-water --per residue
+      molviz measure 4hhb.pdb --probe 1.4 --select 'chain A' --json
+    """
+    if as_json and as_csv:
+        raise click.UsageError("--json and --csv exclude each other")
+    wanted = wanted_from(options)
+    found: list[Measurement] = []
+
+    def one(source: str) -> None:
+        models = load_and_warn(source, replace(wanted, select=None), quiet, strict)
+        found.extend(measurement(loaded, wanted.select, per) for loaded in models)
+
+    try:
+        for_each(inputs, one)
+    finally:
+        _tell(found, wanted, per, as_json, as_csv)
+
+
+def _tell(found: list[Measurement], wanted: Wanted, per: str | None, as_json: bool, as_csv: bool) -> None:
+    if as_json:
+        results = [_totals(one, wanted) | {"per": [_part(part) for part in one.parts]} for one in found]
+        click.echo(json.dumps({"results": results}, ensure_ascii=False))
+    elif as_csv:
+        _write_csv(_rows(found, wanted, per))
+    elif found:
+        click.echo("\n".join(_table(found, wanted)))
+
+
+def _totals(one: Measurement, wanted: Wanted) -> Row:
+    row = {"file": one.file, "model": one.model, "atoms": one.atoms, "radii": wanted.radii, "probe": wanted.probe}
+    return row | {"area": one.area, "volume": one.volume} | _split(one.area, one.exposed)
+
+
+def _part(part: Part) -> Row:
+    return {"id": part.id, "area": part.area} | _split(part.area, part.exposed)
+
+
+def _split(area: float, exposed: float | None) -> Row:
+    return {} if exposed is None else {"exposed": exposed, "buried": area - exposed}
+
+
+def _rows(found: Iterable[Measurement], wanted: Wanted, per: str | None) -> Iterator[Row]:
+    """One row per model, or per atom, residue or chain of each."""
+    for one in found:
+        if per is None:
+            yield _totals(one, wanted)
+        for part in one.parts:
+            yield {"file": one.file, "model": one.model, "probe": wanted.probe} | _part(part)
+
+
+def _write_csv(rows: Iterable[Row]) -> None:
+    writer = None
+    for row in rows:
+        if writer is None:
+            writer = csv.DictWriter(sys.stdout, row, lineterminator="\n")
+            writer.writeheader()
+        writer.writerow(row)
+
+
+def _table(found: list[Measurement], wanted: Wanted) -> Iterator[str]:
+    title = f" ({TABLES[wanted.radii]})" if wanted.radii in TABLES else ""
+    yield f"radii {wanted.radii}{title}, probe {wanted.probe:g} Å; areas in Å², volumes in Å³"
+    width = max(len(one.file) for one in found)
+    for one in found:
+        yield (
+            f"{one.file:<{width}}  model {one.model}  {one.atoms} atoms  area {one.area:.3f}  "
+            f"volume {one.volume:.3f}{_split_text(one.area, one.exposed)}"
+        )
+        longest = max((len(part.id) for part in one.parts), default=0)
+        for part in one.parts:
+            yield f"  {part.id:<{longest}}  {part.area:12.3f}{_split_text(part.area, part.exposed)}"
+
+
+def _split_text(area: float, exposed: float | None) -> str:
+    return "".join(f"  {name} {value:.3f}" for name, value in _split(area, exposed).items())

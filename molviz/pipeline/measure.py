@@ -1,0 +1,112 @@
+"""``molviz measure``: spheres → union boundary → area and volume → sums over atoms, residues or chains."""
+
+import warnings
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from molviz.arrays import Floats, Ints, Strings
+from molviz.errors import InputError
+from molviz.geometry.measure import Measure, measure_spheres
+from molviz.model.molecule import Molecule
+from molviz.model.radii import DEFAULT
+from molviz.model.selection import select
+from molviz.model.spheres import Spheres, spheres_of
+from molviz.pipeline.inputs import Loaded
+
+PER = ("atom", "residue", "chain")
+
+
+class Part(NamedTuple):
+    """The share of an atom, a residue or a chain in the area."""
+
+    id: str
+    area: float  # Å²
+    exposed: float | None  # Å², None without a selection
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """Area and volume of the union of the balls of one model, or of its selected atoms.
+
+    Of a selection, ``area`` and ``volume`` are what it has alone, and ``exposed`` is the part of its area that the
+    rest of the model leaves free; the difference is buried.
+    """
+
+    file: str
+    model: int  # from 1
+    atoms: int
+    area: float  # Å²
+    volume: float  # Å³
+    exposed: float | None  # Å², None without a selection
+    parts: tuple[Part, ...]
+
+
+def measure(molecule: Molecule, probe: float = 1.4, radii: str = DEFAULT) -> Measure:
+    """Return exact areas (n,) in Å² and the volume in Å³ of the union of a molecule's balls, ``probe`` Å larger.
+
+    Derivatives by the atoms' positions come with it. Warns of radii that had to be guessed. Raises InputError for an
+    unknown table of radii.
+    """
+    spheres, notes = spheres_of(molecule, radii, probe=probe)
+    for note in notes:
+        warnings.warn(note, stacklevel=2)
+    return measure_spheres(spheres)
+
+
+def measurement(loaded: Loaded, selection: str | None = None, per: str | None = None) -> Measurement:
+    """Measure one model, or the selected atoms of it, and add up ``per`` atom, residue or chain.
+
+    Raises InputError for a selection that cannot be understood or means no atom.
+    """
+    chosen = _chosen(loaded, selection)
+    alone = measure_spheres(_take(loaded.spheres, chosen))
+    exposed = None if selection is None else measure_spheres(loaded.spheres).area[chosen]
+    return Measurement(
+        file=loaded.source,
+        model=loaded.model,
+        atoms=len(chosen),
+        area=float(alone.area.sum()),
+        volume=alone.volume,
+        exposed=None if exposed is None else float(exposed.sum()),
+        parts=() if per is None else _parts(loaded.molecule.take(chosen), per, alone.area, exposed),
+    )
+
+
+def _chosen(loaded: Loaded, selection: str | None) -> Ints:
+    if selection is None:
+        return np.arange(len(loaded.molecule))
+    chosen = np.flatnonzero(select(loaded.molecule, selection))
+    if len(chosen) == 0:
+        raise InputError(f"selection {selection!r} means no atom; expected one at least", loaded.source)
+    return chosen
+
+
+def _take(spheres: Spheres, rows: Ints) -> Spheres:
+    return Spheres(spheres.center[rows], spheres.radius[rows])
+
+
+def _parts(molecule: Molecule, per: str, area: Floats, exposed: Floats | None) -> tuple[Part, ...]:
+    """One row per atom, residue or chain, in the order of the file."""
+    ids = _ids(molecule, per)
+    names, first, group = np.unique(ids, return_index=True, return_inverse=True)
+    if per == "atom":
+        names, first, group = ids, np.arange(len(ids)), np.arange(len(ids))
+    order = np.argsort(first)
+    columns = [None if column is None else np.bincount(group, column)[order].tolist() for column in (area, exposed)]
+    alone, free = columns[0] or [], columns[1] or [None] * len(order)
+    return tuple(Part(*row) for row in zip(names[order].tolist(), alone, free, strict=True))
+
+
+def _ids(molecule: Molecule, per: str) -> Strings:
+    """``A``, ``A/CYS56A`` or ``A/CYS56A/SG``; ``-`` for a chain without a name, ``C1`` for atoms without residue."""
+    chain = np.where(molecule.chain == "", "-", molecule.chain)
+    if per == "chain":
+        return chain
+    residue = np.char.add(np.char.add(chain, "/"), np.char.add(molecule.residue_name, molecule.residue))
+    if per == "residue":
+        return residue
+    named = np.char.add(np.char.add(residue, "/"), molecule.atom_name)
+    numbered = np.char.add(molecule.element, (molecule.row + 1).astype(str))
+    return np.where((molecule.residue == "") & (molecule.residue_name == ""), numbered, named)

@@ -1,0 +1,27 @@
+"""What the pre-tests in single precision let through: all free arcs, whatever is packed how densely."""
+
+from collections import defaultdict
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from molviz.geometry.boundary import union_boundary
+from tests.measure_oracle import all_free_arcs
+from tests.oracle import random_spheres
+
+
+@given(st.integers(0, 10_000), st.integers(2, 30), st.floats(1.0, 5.0), st.floats(1, 4))
+@settings(max_examples=40, deadline=None)
+def test_free_arcs_are_those_of_testing_every_piece(seed: int, count: int, extent: float, spread: float) -> None:
+    spheres = random_spheres(seed, count, extent, spread)
+    boundary = union_boundary(spheres)
+    expected: dict[tuple[int, int], float] = defaultdict(float)
+    for arc in all_free_arcs(spheres):
+        if arc.sphere < arc.ball:
+            expected[arc.sphere, arc.ball] += arc.sweep
+    sweep = np.bincount(boundary.arcs.circle, boundary.arcs.sweep, len(boundary.circles.first))
+    pairs = zip(boundary.circles.first.tolist(), boundary.circles.second.tolist(), strict=True)
+    found = dict(zip(pairs, sweep.tolist(), strict=True))
+    for pair in {*expected, *found}:
+        assert abs(expected[pair] - found.get(pair, 0.0)) < 1e-9
