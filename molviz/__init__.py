@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from molviz.errors import InputError
     from molviz.model.molecule import Molecule
+    from molviz.pipeline.measure import measure
     from molviz.pipeline.visible import Visible, visible
     from molviz.read import Reading, read
     from molviz.visibility.view import View
@@ -20,10 +21,11 @@ _HOMES = {  # imported when first used: start-up time counts
     "Reading": "molviz.read",
     "View": "molviz.visibility.view",
     "Visible": "molviz.pipeline.visible",
+    "measure": "molviz.pipeline.measure",
     "read": "molviz.read",
     "visible": "molviz.pipeline.visible",
 }
-__all__ = ["InputError", "Molecule", "Reading", "View", "Visible", "read", "visible"]
+__all__ = ["InputError", "Molecule", "Reading", "View", "Visible", "measure", "read", "visible"]
 
 
 def __getattr__(name: str) -> Any:

@@ -17,7 +17,7 @@ from molviz.cli.options import (
 )
 from molviz.cli.progress import Progress
 from molviz.errors import InputError
-from molviz.picture.coloring import SCHEMES
+from molviz.picture.coloring import CONTINUOUS, SCHEMES
 from molviz.picture.compose import Look
 from molviz.picture.page import Page
 from molviz.picture.style import STYLES, load_style
@@ -39,7 +39,8 @@ output_options = applied(
 @click.argument("inputs", nargs=-1, required=True, metavar="INPUT...")
 @output_options
 @click.option("--style", default="default", show_default=True, metavar="NAME|FILE.toml", help=f"One of {STYLES}.")
-@click.option("--color-by", type=click.Choice(list(SCHEMES)), default="element", show_default=True)
+@click.option("--color-by", type=click.Choice([*SCHEMES, *CONTINUOUS]), default="element", show_default=True)
+@click.option("--legend", is_flag=True, help="A legend for colours by bfactor or exposure.")
 @click.option("--fill", type=click.Choice(["flat", "none"]), default="flat", show_default=True)
 @eye_options
 @page_options
@@ -108,6 +109,8 @@ def _suffix(output: str | None, to: str | None) -> str:
 
 def look_from(options: dict[str, Any]) -> Look:
     """Take the look out of a command's keyword arguments."""
+    if options["legend"] and options["color_by"] not in CONTINUOUS:
+        raise click.UsageError(f"--legend explains numbers; expected --color-by {' or '.join(CONTINUOUS)}")
     page = Page(options["page"], options["width"], options["scale"], options["margin"])
     return Look(
         style=load_style(options["style"]),
@@ -117,6 +120,7 @@ def look_from(options: dict[str, Any]) -> Look:
         crease=options["crease"],
         background=options["background"],
         page=page,
+        legend=options["legend"],
     )
 
 

@@ -26,11 +26,6 @@ def by_chain(molecule: Molecule, style: Style) -> list[Color]:
     return [style.chain[number[name] % len(style.chain)] for name in molecule.chain.tolist()]
 
 
-def by_bfactor(molecule: Molecule, style: Style) -> list[Color]:
-    """The style's ramp from the lowest to the highest B factor; atoms without one are of the unknown colour."""
-    return on_ramp(molecule.bfactor, style)
-
-
 def by_index(molecule: Molecule, style: Style) -> list[Color]:
     """Atom k has the colour whose RGB value is k + 1, exactly: a picking mask."""
     return [(k >> 16 & 255, k >> 8 & 255, k & 255) for k in range(1, len(molecule) + 1)]
@@ -40,9 +35,17 @@ SCHEMES: dict[str, Callable[[Molecule, Style], Sequence[Color]]] = {
     "element": by_element,
     "chain": by_chain,
     "residue": by_residue,
-    "bfactor": by_bfactor,
     "index": by_index,
 }
+CONTINUOUS = {  # schemes that colour by a number per atom, and what their legends say
+    "bfactor": "B factor, Å²",
+    "exposure": "exposed area, Å²",
+}
+
+
+def atom_colors(scheme: str, molecule: Molecule, values: Floats, style: Style) -> Sequence[Color]:
+    """Return the colour of each atom; ``values`` (n,) are the numbers of a continuous scheme."""
+    return on_ramp(values, style) if scheme in CONTINUOUS else SCHEMES[scheme](molecule, style)
 
 
 def order_of_appearance(names: Strings) -> dict[str, int]:
@@ -51,7 +54,7 @@ def order_of_appearance(names: Strings) -> dict[str, int]:
 
 
 def on_ramp(values: Floats, style: Style) -> list[Color]:
-    """Return the colours of values between their least and their greatest, linear between the ramp's stops."""
+    """Return the colours of values between their least and greatest, linear between the stops; NaN is unknown."""
     known = np.isfinite(values)
     low, high = (values[known].min(), values[known].max()) if known.any() else (0.0, 1.0)
     place = np.where(known, (values - low) / max(high - low, np.finfo(float).tiny), 0.0) * (len(style.ramp) - 1)

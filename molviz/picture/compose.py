@@ -9,7 +9,9 @@ from molviz.curves import Paths, PlaneArcs
 from molviz.geometry.rows import offsets
 from molviz.model.molecule import Molecule
 from molviz.picture.chains import Chains, linked, merged
-from molviz.picture.coloring import SCHEMES, order_of_appearance
+from molviz.picture.coloring import CONTINUOUS, atom_colors, order_of_appearance
+from molviz.picture.legend import WIDTH as LEGEND_WIDTH
+from molviz.picture.legend import legend
 from molviz.picture.marks import marks
 from molviz.picture.page import Page, Placement, place
 from molviz.picture.picture import Color, FillLayer, Layer, Picture, StackedLayer, StrokeLayer
@@ -33,6 +35,7 @@ class Look:
     crease: float | None = None
     background: Color | None = None
     page: Page = Page()
+    legend: bool = False
 
 
 @dataclass(frozen=True)
@@ -43,6 +46,7 @@ class Drawn:
     atom: Ints  # (s,) the atom of each sphere
     low: Floats  # (2,) ångström, of the bounding box of all images
     high: Floats  # (2,)
+    values: Floats  # (n,) per atom, what a continuous scheme colours by
 
 
 def picture_of_map(found: VisibilityMap, drawn: Drawn, look: Look) -> Picture:
@@ -124,7 +128,7 @@ def _paths(arcs: PlaneArcs, circle: Ints, chains: Chains, shape: Ints | None = N
 
 def _fills(name: str, paths: Paths, drawn: Drawn, sphere: Ints, look: Look, grouped: bool) -> FillLayer:
     atoms = drawn.atom[sphere]
-    everyone = SCHEMES[look.color_by](drawn.molecule, look.style)
+    everyone = atom_colors(look.color_by, drawn.molecule, drawn.values, look.style)
     colors = [everyone[atom] for atom in atoms.tolist()]
     if look.fill == "none":
         colors = [look.background or (255, 255, 255)] * len(colors)
@@ -172,7 +176,7 @@ def _placement(drawn: Drawn, look: Look) -> tuple[Placement, tuple[float, float]
     """Where the drawing lies, and the widths of outlines and creases in points."""
     style = look.style
     widest = max(style.outline.width if look.outline is None else look.outline, look.crease or 0.0)
-    placement = place(look.page, drawn.low, drawn.high, widest / 2)
+    placement = place(look.page, drawn.low, drawn.high, widest / 2, LEGEND_WIDTH if look.legend else 0.0)
     outline = style.outline.at(placement.scale) if look.outline is None else look.outline
     crease = style.crease.at(placement.scale) if look.crease is None else look.crease
     return placement, (outline, crease)
@@ -183,7 +187,13 @@ def _picture(
 ) -> Picture:
     half = max(*widths, 0.0 if look.color_by == "index" else SPREAD) / 2
     low, high = (placement.scale * corner + placement.shift for corner in (drawn.low, drawn.high))
-    box = (float(low[0] - half), float(low[1] - half), float(high[0] + half), float(high[1] + half))
+    right = float(high[0] + half)
+    if look.legend:
+        x, middle = right + 16.0, float(low[1] + high[1]) / 2
+        reach = min(float(high[1] - low[1]) / 2 - 12.0, 90.0)
+        layers += legend(drawn.values, CONTINUOUS[look.color_by], look.style, x, middle - reach, middle + reach)
+        right = placement.width - 1.0
+    box = (float(low[0] - half), float(low[1] - half), right, float(high[1] + half))
     return Picture(
         width=placement.width,
         height=placement.height,

@@ -10,8 +10,8 @@ from molviz.picture.style import Style
 
 STEPS = 48  # flat rectangles: exact in every format, and finer than the eye tells apart
 BAR = 12.0  # points wide
-WIDTH = 70.0  # points that bar and numbers take beside a drawing
-SIZE = 9.0  # of the text
+WIDTH = 90.0  # points that bar and numbers take beside a drawing
+SIZE = 8.0  # of the text
 
 
 def legend(values: Floats, title: str, style: Style, x: float, low: float, high: float) -> list[Layer]:

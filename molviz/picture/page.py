@@ -33,8 +33,10 @@ class Placement:
     height: float
 
 
-def place(page: Page, low: Floats, high: Floats, line: float) -> Placement:
+def place(page: Page, low: Floats, high: Floats, line: float, beside: float = 0.0) -> Placement:
     """Return where a drawing from ``low`` to ``high`` (2,) ångström goes; ``line`` points more around it are painted.
+
+    ``beside`` points on its right are kept free for a legend.
 
     It is centred, on a page of fixed size as large as the margins let it be unless told otherwise; a page that fits the
     drawing is a whole number of points wide and high, so that it divides into whole pixels.
@@ -42,17 +44,19 @@ def place(page: Page, low: Floats, high: Floats, line: float) -> Placement:
     margin = (USUAL_MARGIN[page.size] if page.margin is None else page.margin) + line
     extent = np.maximum(high - low, 1e-9)
     paper = PAPER.get(page.size)
-    scale = page.scale or _scale(page, extent, paper, margin)
-    width, height = paper or tuple(float(np.ceil(side - 1e-9)) for side in extent * scale + 2 * margin)
-    shift = np.array([width, height]) / 2 - scale * (low + high) / 2
+    room = None if paper is None else np.array(paper) - 2 * margin - [beside, 0.0]
+    scale = page.scale or _scale(page, extent, room)
+    needed = extent * scale + 2 * margin + [beside, 0.0]
+    width, height = paper or tuple(float(np.ceil(side - 1e-9)) for side in needed)
+    shift = np.array([width - beside, height]) / 2 - scale * (low + high) / 2
     return Placement(scale, shift, width, height)
 
 
-def _scale(page: Page, extent: Floats, paper: tuple[float, float] | None, margin: float) -> float:
+def _scale(page: Page, extent: Floats, room: Floats | None) -> float:
     if page.width is not None:
         return page.width / float(extent[0])
-    if paper is not None:
-        return float(np.min((np.array(paper) - 2 * margin) / extent))
+    if room is not None:
+        return float(np.min(np.maximum(room, 1.0) / extent))
     return min(USUAL_SIZE / float(extent.max()), LARGEST_SCALE)
 
 

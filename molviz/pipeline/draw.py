@@ -2,12 +2,15 @@
 
 import json
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
+from molviz.arrays import Floats
 from molviz.errors import InputError
+from molviz.geometry.measure import measure_spheres
+from molviz.model.spheres import Spheres
 from molviz.picture.compose import Drawn, Look, picture_of_map, picture_of_pieces, slivers
 from molviz.picture.picture import Picture
 from molviz.pipeline.inputs import Loaded
@@ -19,6 +22,7 @@ from molviz.visibility.view import View, file_axes, principal_axes
 from molviz.write import WRITERS, write
 
 JSON = ".json"
+WATER_RADIUS = 1.4  # ångström, Lee & Richards 1971
 Report = Callable[[str], None]  # told the name of each stage as it begins
 
 
@@ -47,7 +51,7 @@ def draw(loaded: Loaded, suffix: str, look: Look, eye: Eye, method: str, check: 
     """
     view = view_of(loaded, eye)
     low, high = extent(loaded.spheres, view)
-    drawn = Drawn(loaded.molecule, np.arange(len(loaded.molecule)), low, high)
+    drawn = Drawn(loaded.molecule, np.arange(len(loaded.molecule)), low, high, color_values(loaded, look.color_by))
     if method == "painter":
         if suffix == JSON:
             raise InputError("the visibility map is written as JSON; use --method visible", loaded.source)
@@ -67,7 +71,7 @@ def _mapped(
         data = json.dumps(map_as_data(found, loaded.molecule.row[atom], view), separators=(",", ":")).encode() + b"\n"
     else:
         report("picture")
-        data = _written(picture_of_map(found, Drawn(drawn.molecule, atom, drawn.low, drawn.high), look), suffix, report)
+        data = _written(picture_of_map(found, replace(drawn, atom=atom), look), suffix, report)
     return Drawing(data, loaded.read, visible, len(found.start))
 
 
@@ -75,13 +79,23 @@ def _painted(loaded: Loaded, suffix: str, look: Look, view: View, drawn: Drawn, 
     report("painter's pieces")
     found, atom = in_one_view(loaded.spheres, view, pieces_of_scene)
     report("picture")
-    picture = picture_of_pieces(found, Drawn(drawn.molecule, atom, drawn.low, drawn.high), look)
+    picture = picture_of_pieces(found, replace(drawn, atom=atom), look)
     return Drawing(_written(picture, suffix, report), loaded.read, len(found.order), len(found.circle))
 
 
 def _written(picture: Picture, suffix: str, report: Report) -> bytes:
     report("writing")
     return write(picture, suffix)
+
+
+def color_values(loaded: Loaded, scheme: str) -> Floats:
+    """Return what a continuous colour scheme shows of each atom (n,), NaN for other schemes.
+
+    Exposure is the exact solvent-accessible area of the atom in Å² (water, radius 1.4 Å, among the atoms drawn).
+    """
+    if scheme == "exposure":
+        return measure_spheres(Spheres(loaded.spheres.center, loaded.spheres.radius + WATER_RADIUS)).area
+    return loaded.molecule.bfactor if scheme == "bfactor" else np.full(len(loaded.molecule), np.nan)
 
 
 def view_of(loaded: Loaded, eye: Eye) -> View:

@@ -1,6 +1,5 @@
 """PDF: arcs as cubic Béziers within a thousandth of a point, layers that a viewer can switch off."""
 
-import re
 from collections.abc import Iterator
 from io import BytesIO
 
@@ -19,7 +18,7 @@ from molviz.write.ellipse import (
     starts_and_ends,
     with_straight_pieces,
 )
-from molviz.write.text import Texts, ascii_line, clean, number, numbers
+from molviz.write.text import Texts, clean, latin_string, number, numbers
 
 PLACES = 3
 
@@ -45,7 +44,7 @@ def write_pdf(picture: Picture) -> bytes:
 def page(pdf: pydyf.PDF, picture: Picture, properties: pydyf.Dictionary, content: pydyf.Stream) -> pydyf.Dictionary:
     """Return the page object."""
     box = pydyf.Array([0, 0, number(picture.width, PLACES), number(picture.height, PLACES)])
-    font = pydyf.Dictionary({"Type": "/Font", "Subtype": "/Type1", "BaseFont": "/Helvetica"})
+    font = pydyf.Dictionary({"Type": "/Font", "Subtype": "/Type1", "BaseFont": "/Helvetica", "Encoding": "/WinAnsiEncoding"})
     resources = pydyf.Dictionary({"Properties": properties, "Font": pydyf.Dictionary({"F": font})})
     return pydyf.Dictionary(
         {
@@ -90,8 +89,8 @@ def written(layer: TextLayer) -> Iterator[str]:
     """Yield lines of text in Helvetica, which every viewer has."""
     yield f"{color_text(layer.color)} rg"
     for one in layer.texts:
-        text = re.sub(r"([\\()])", r"\\\1", ascii_line(one.text))
-        yield f"BT /F {number(one.size)} Tf {number(one.x, PLACES)} {number(one.y, PLACES)} Td ({text}) Tj ET"
+        place = f"{number(one.x, PLACES)} {number(one.y, PLACES)}"
+        yield f"BT /F {number(one.size)} Tf {place} Td ({latin_string(one.text)}) Tj ET"
 
 
 def pen(layer: StrokeLayer) -> str:

@@ -1,7 +1,6 @@
 """PostScript and EPS: short procedures, true arcs, one line of text per arc."""
 
 import math
-import re
 from collections.abc import Iterator
 
 import numpy as np
@@ -10,7 +9,7 @@ from molviz.arrays import Bools, Floats
 from molviz.curves import Paths, PlaneArcs
 from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StackedLayer, StrokeLayer, TextLayer
 from molviz.write.ellipse import THIN, closed_loops, on_axes, with_straight_pieces
-from molviz.write.text import Texts, ascii_line, number, numbers
+from molviz.write.text import Texts, ascii_line, latin_string, number, numbers
 
 # a1 a2 major minor rotation cx cy E (F backwards): the arc is built in the unit circle's frame, then that frame is
 # dropped, so that the pen stays round.
@@ -98,11 +97,12 @@ def layer_lines(layer: Layer) -> Iterator[str]:
 
 
 def written(layer: TextLayer) -> Iterator[str]:
-    """Yield lines of text in Helvetica."""
+    """Yield lines of text in Helvetica, with all letters of Latin-1."""
+    yield "/Latin/Helvetica findfont dup length dict copy dup/Encoding ISOLatin1Encoding put definefont pop"
     yield color_text(layer.color)
     for one in layer.texts:
-        text = re.sub(r"([\\()])", r"\\\1", ascii_line(one.text)[:200])
-        yield f"/Helvetica {number(one.size)} selectfont {number(one.x)} {number(one.y)} m ({text}) show"
+        text = latin_string(one.text[:50])
+        yield f"/Latin {number(one.size)} selectfont {number(one.x)} {number(one.y)} m ({text}) show"
 
 
 def pen(layer: StrokeLayer) -> str:

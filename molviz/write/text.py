@@ -43,6 +43,12 @@ def ascii_line(text: str) -> str:
     return re.sub("[^ -~]", "?", " ".join(text.split()))
 
 
+def latin_string(text: str) -> str:
+    """Return a text as the inside of a PostScript or PDF string: Latin-1, octal where it is not plain ASCII."""
+    codes = " ".join(text.split()).encode("latin-1", "replace")
+    return "".join(chr(code) if 32 <= code < 127 and code not in b"()\\" else f"\\{code:03o}" for code in codes)
+
+
 def token(text: str) -> str:
     """Return a text as an XML name that is safe as an id and as a CSS class."""
     word = re.sub("[^A-Za-z0-9_.-]", "_", text)

@@ -1,0 +1,37 @@
+"""The legend says what the colours mean, in every format."""
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from molviz.cli import main
+
+PROTEIN = str(Path(__file__).parent.parent / "samples" / "1a8o.pdb")
+
+
+@pytest.mark.parametrize("scheme", ["bfactor", "exposure"])
+def test_the_least_and_the_greatest_value_are_named(tmp_path: Path, scheme: str) -> None:
+    target = tmp_path / "x.svg"
+    result = CliRunner().invoke(main, ["draw", PROTEIN, "--color-by", scheme, "--legend", "-o", str(target)])
+    assert result.exit_code == 0, result.output
+    text = target.read_text(encoding="utf-8")
+    assert ("B factor, Å²" if scheme == "bfactor" else "exposed area, Å²") in text
+    if scheme == "bfactor":
+        lines = Path(PROTEIN).read_text(encoding="ascii").splitlines()
+        factors = [float(line[60:66]) for line in lines if line.startswith(("ATOM", "HETATM"))]
+        for value in (min(factors), max(factors)):
+            assert f">{value:.4g}<" in text
+
+
+def test_postscript_and_pdf_hold_latin_letters(tmp_path: Path) -> None:
+    for suffix in (".ps", ".pdf"):
+        target = tmp_path / f"x{suffix}"
+        words = ["draw", PROTEIN, "--color-by", "bfactor", "--legend", "-o", str(target)]
+        assert CliRunner().invoke(main, words).exit_code == 0
+        assert suffix == ".pdf" or rb"(B factor, \305\262) show" in target.read_bytes()
+
+
+def test_a_legend_of_names_is_a_usage_error(tmp_path: Path) -> None:
+    result = CliRunner().invoke(main, ["draw", PROTEIN, "--legend", "-o", str(tmp_path / "x.svg")])
+    assert result.exit_code == 2
