@@ -34,21 +34,22 @@ UNIT_SQUARE = Square(0.0, 0.0, 1.0)
 
 
 class Grid(NamedTuple):
-    """``count`` × ``count`` cells over a square; cell number = row × count + column, from the lower left."""
+    """``across`` × ``across`` cells over a square; cell number = row × across + column, from the lower left."""
 
     square: Square
-    count: int
+    across: int
 
     @property
     def cell(self) -> float:
         """The side of a cell."""
-        return self.square.side / self.count
+        return self.square.side / self.across
 
     def cell_at(self, x: Floats, y: Floats) -> Ints:
         """Return the number of the cell that each point lies in, the nearest cell for points outside."""
-        column = np.clip(np.floor((x - self.square.x) / self.cell), 0, self.count - 1)
-        row = np.clip(np.floor((y - self.square.y) / self.cell), 0, self.count - 1)
-        return (row * self.count + column).astype(np.int64)
+        column = np.clip(np.floor((x - self.square.x) / self.cell), 0, self.across - 1)
+        row = np.clip(np.floor((y - self.square.y) / self.cell), 0, self.across - 1)
+        cell: Ints = (row * self.across + column).astype(np.int64)
+        return cell
 
 
 class CellLists(NamedTuple):
@@ -60,7 +61,7 @@ class CellLists(NamedTuple):
 
 
 class _Rows(NamedTuple):
-    """One disc in one row of cells: columns low … high − 1 may meet it, of them inner_low … inner_high − 1 lie inside."""
+    """Discs in rows of cells: columns low … high − 1 may meet the disc, inner_low … inner_high − 1 lie inside."""
 
     disc: Ints
     row: Ints
@@ -110,24 +111,24 @@ def cell_lists(spheres: Spheres, grid: Grid) -> CellLists:
 
 def _strips(spheres: Spheres, grid: Grid) -> Iterator[tuple[int, int, Ints]]:
     """Cut the grid into strips of whole rows; yield first row, row after the last, and the discs that reach it."""
-    tall = max(1, STRIP_CELLS // grid.count)
-    strips = -(-grid.count // tall)
+    tall = max(1, STRIP_CELLS // grid.across)
+    strips = -(-grid.across // tall)
     y, reach = (spheres.center[:, 1] - grid.square.y) / grid.cell, spheres.radius / grid.cell + MARGIN
-    first, last = (_clipped(np.floor(edge), grid.count) // tall for edge in (y - reach, y + reach))
+    first, last = (_clipped(np.floor(edge), grid.across) // tall for edge in (y - reach, y + reach))
     disc, strip = expand(first, last + 1)
     by_strip = np.argsort(strip.astype(np.uint16), kind="stable")
     start = offsets(strip, strips)
     for number in range(strips):
         reaching = disc[by_strip[start[number] : start[number + 1]]]
-        yield number * tall, min((number + 1) * tall, grid.count), reaching
+        yield number * tall, min((number + 1) * tall, grid.across), reaching
 
 
 def _strip(spheres: Spheres, grid: Grid, bottom: int, top: int, disc: Ints) -> tuple[Ints, Ints, Ints]:
     """The blockers, list lengths and lists of the cells in rows bottom … top − 1."""
     rows = _spans(spheres, grid, bottom, top, disc)
-    first_cell = (rows.row - bottom) * grid.count
+    first_cell = (rows.row - bottom) * grid.across
     z = spheres.center[:, 2]
-    cells = (top - bottom) * grid.count
+    cells = (top - bottom) * grid.across
 
     owner, cell = expand(first_cell + rows.inner_low, first_cell + rows.inner_high)
     blocker_z, blocker = _nearest(z, rows.disc[owner], cell, cells)
@@ -155,15 +156,15 @@ def _spans(spheres: Spheres, grid: Grid, bottom: int, top: int, disc: Ints) -> _
     """
     x, y = ((spheres.center[disc, axis] - grid.square[axis]) / grid.cell for axis in (0, 1))
     radius = spheres.radius[disc] / grid.cell
-    first, last = (_clipped(np.floor(edge), grid.count) for edge in (y - radius - MARGIN, y + radius + MARGIN))
+    first, last = (_clipped(np.floor(edge), grid.across) for edge in (y - radius - MARGIN, y + radius + MARGIN))
     owner, row = expand(np.maximum(first, bottom), np.minimum(last + 1, top))
     x, y, radius = x[owner], y[owner] - row, radius[owner]
 
     half_inner = _half_chord(radius - MARGIN, np.maximum(np.abs(y), np.abs(y - 1.0)))
     half_outer = _half_chord(radius + HALF_DIAGONAL + MARGIN, y - 0.5)
     reach = np.minimum(radius + MARGIN, half_outer - 0.5)  # of the rectangle, and of centres within half_outer
-    low = _clipped(np.floor(x - reach), grid.count)
-    high = _clipped(np.floor(x + reach), grid.count) + 1
+    low = _clipped(np.floor(x - reach), grid.across)
+    high = _clipped(np.floor(x + reach), grid.across) + 1
     inner_low = np.clip(np.ceil(x - half_inner).astype(np.int64), low, high)
     inner_high = np.clip(np.floor(x + half_inner).astype(np.int64), inner_low, high)
     return _Rows(disc[owner], row, low, inner_low, inner_high, high)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.intervals import TURN, Intervals, gaps
+from molviz.geometry.intervals import Intervals, gaps
 from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
 from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, cell_lists, nearer
@@ -18,7 +18,6 @@ from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, cell_lists, nea
 BLOCK_ROWS = 1 << 18  # pairs, intervals or tests at a time: keeps memory flat and the columns in cache
 TOUCH = 4.0 * np.finfo(float).eps  # of the lengths compared: perimeters this close to tangent touch and do not cross
 SLIVER = 1e-12  # radians: a shorter arc lies between two ends that rounding has torn apart
-WITHIN = 1.0 - 1e-12  # of the radius: a midpoint on a perimeter is the business of the pair test, not in the disc
 
 
 class DiscArcs(NamedTuple):
@@ -33,6 +32,10 @@ class DiscArcs(NamedTuple):
     sweep: Floats  # (k,) radians in (0, 2π]
     before: Ints  # (k,)
     after: Ints  # (k,)
+
+    def take(self, rows: Ints | Bools) -> "DiscArcs":
+        """Return the given rows, in that order."""
+        return DiscArcs(self.circle[rows], self.start[rows], self.sweep[rows], self.before[rows], self.after[rows])
 
 
 class Work(NamedTuple):
@@ -60,13 +63,13 @@ def visible_arcs(spheres: Spheres, grid: Grid) -> tuple[DiscArcs, Work]:
     """
     lists = cell_lists(spheres, grid)
     pairs, tested = pairs_on_lists(spheres, lists)
-    found = list(_arcs_of_blocks(spheres, lists, pairs))
-    remaining = DiscArcs(*(np.concatenate(column) for column in list(zip(*(arcs for arcs, _ in found), strict=True))))
-    visible = ~_midpoint_hidden(spheres, grid, lists, remaining)
-    work = Work(
-        len(lists.item), int(np.count_nonzero(lists.blocker != NOBODY)), tested, sum(crossing for _, crossing in found)
-    )
-    return DiscArcs(*(column[visible] for column in remaining)), work
+    visible, crossing = [], 0
+    for remaining, crossings in _arcs_of_blocks(spheres, lists, pairs):
+        visible.append(remaining.take(~_midpoint_hidden(spheres, grid, lists, remaining)))
+        crossing += crossings
+    columns = (np.concatenate(column) for column in zip(*visible, strict=True))
+    blocked = int(np.count_nonzero(lists.blocker != NOBODY))
+    return DiscArcs(*columns), Work(len(lists.item), blocked, tested, crossing)  # type: ignore[arg-type]
 
 
 def pairs_on_lists(spheres: Spheres, lists: CellLists) -> tuple[Pairs, int]:
@@ -83,7 +86,8 @@ def pairs_on_lists(spheres: Spheres, lists: CellLists) -> tuple[Pairs, int]:
 def _distinct(key: Ints) -> Ints:
     """The distinct keys, ascending (by one sort, many times faster here than the table behind ``numpy.unique``)."""
     key = np.sort(key)
-    return key[np.append(True, key[1:] != key[:-1])[: len(key)]]
+    distinct: Ints = key[np.append(True, key[1:] != key[:-1])[: len(key)]]
+    return distinct
 
 
 def _meetings(lists: CellLists) -> Iterator[tuple[Ints, Ints]]:
@@ -114,7 +118,7 @@ def _remaining_arcs(spheres: Spheres, disc: Ints, pairs: Pairs) -> tuple[DiscArc
     long = free.sweep > SLIVER
     near = np.append(near, -1)
     arcs = DiscArcs(disc[free.circle], free.start, free.sweep, near[free.before], near[free.after])
-    return DiscArcs(*(column[long] for column in arcs)), crossing
+    return arcs.take(long), crossing
 
 
 def hidden_intervals(spheres: Spheres, pairs: Pairs) -> tuple[Intervals, Ints, int]:
@@ -142,24 +146,17 @@ def hidden_intervals(spheres: Spheres, pairs: Pairs) -> tuple[Intervals, Ints, i
 
 
 def _midpoint_hidden(spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscArcs) -> Bools:
-    """Tell whether the midpoint of each arc is hidden: by its cell's blocking disc, or one on its cell's list."""
+    """Tell whether the midpoint of each arc is hidden: whether its disc is blocked in the midpoint's cell.
+
+    The discs on the cell's list need no test, unlike in the paper, which stops forming pairs of a perimeter once it
+    is known to be hidden: a disc that is not blocked is on the list, its pairs there were tested, and what they
+    hide of it is gone.
+    """
     middle = arcs.start + 0.5 * arcs.sweep
     x = spheres.center[arcs.circle, 0] + spheres.radius[arcs.circle] * np.cos(middle)
     y = spheres.center[arcs.circle, 1] + spheres.radius[arcs.circle] * np.sin(middle)
-    cell = grid.cell_at(x, y)
-    hidden = _blocked(spheres, lists.blocker[cell], arcs.circle)
-    begin, end = lists.start[cell], lists.start[cell + 1]
-    for block in blocks(end - begin, BLOCK_ROWS):
-        owner, place = expand(begin[block], end[block])
-        arc, item = owner + block.start, lists.item[place]
-        gap = (spheres.center[item, 0] - x[arc]) ** 2 + (spheres.center[item, 1] - y[arc]) ** 2
-        hides = (gap < (spheres.radius[item] * WITHIN) ** 2) & nearer(spheres, item, arcs.circle[arc])
-        hidden[arc[hides]] = True
-    return hidden
-
-
-def _blocked(spheres: Spheres, blocker: Ints, disc: Ints) -> Bools:
+    blocker = lists.blocker[grid.cell_at(x, y)]
     known = np.flatnonzero(blocker != NOBODY)
-    blocked = np.zeros(len(disc), dtype=bool)
-    blocked[known] = nearer(spheres, blocker[known], disc[known])
-    return blocked
+    hidden = np.zeros(len(blocker), dtype=bool)
+    hidden[known] = nearer(spheres, blocker[known], arcs.circle[known])
+    return hidden
