@@ -7,7 +7,7 @@ import pytest
 
 from molviz.model.scenes import random_scene, text_scene
 from molviz.model.spheres import Spheres
-from molviz.visibility.disc_grid import UNIT_SQUARE, Grid, bounding_square, franklin_count
+from molviz.visibility.disc_grid import UNIT_SQUARE, Grid, bounding_square, cell_lists, franklin_count
 from molviz.visibility.discs import DiscArcs, visible_arcs
 from tests import disc_oracle
 
@@ -24,7 +24,8 @@ def discs_of(scene: Spheres) -> list[disc_oracle.Disc]:
 
 
 def arcs_on(scene: Spheres, count: int) -> DiscArcs:
-    return visible_arcs(scene, Grid(bounding_square(scene), count))[0]
+    grid = Grid(bounding_square(scene), count)
+    return visible_arcs(scene, grid, cell_lists(scene, grid))[0]
 
 
 def assert_equal(arcs: DiscArcs, expected: list[list[tuple[float, float]]]) -> None:
@@ -87,7 +88,8 @@ def test_ends_name_the_discs_that_hide_beyond_them() -> None:
 
 def test_franklins_own_run() -> None:
     """N = 10,000, R = 0.0178, G = 142: the figures of his Fig. 8, within the spread of random scenes."""
-    arcs, work = visible_arcs(random_scene(10000, radius=0.0178), Grid(UNIT_SQUARE, 142))
+    scene, grid = random_scene(10000, radius=0.0178), Grid(UNIT_SQUARE, 142)
+    arcs, work = visible_arcs(scene, grid, cell_lists(scene, grid))
     pieces = np.bincount(arcs.circle, minlength=10000)
     whole = np.count_nonzero(arcs.before < 0)
     assert work.cells_blocked == pytest.approx(19337, rel=0.05)

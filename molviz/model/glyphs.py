@@ -32,7 +32,7 @@ def dots(text: str) -> tuple[Ints, Ints]:
 
 def _glyph(character: str) -> list[str]:
     if character not in _font():
-        raise InputError(f"no letter {character!r} in the dot-matrix font, expected one of {''.join(sorted(_font()))!r}")
+        raise InputError(f"no letter {character!r} in the dot-matrix font, expected A to Z, 0 to 9 or a blank")
     return _font()[character]
 
 

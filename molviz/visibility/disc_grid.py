@@ -131,7 +131,7 @@ def _strip(spheres: Spheres, grid: Grid, bottom: int, top: int, disc: Ints) -> t
     cells = (top - bottom) * grid.across
 
     owner, cell = expand(first_cell + rows.inner_low, first_cell + rows.inner_high)
-    blocker_z, blocker = _nearest(z, rows.disc[owner], cell, cells)
+    blocker_z, blocker = foremost(z, rows.disc[owner], cell, cells)
 
     left, right = (
         expand(first_cell + rows.low, first_cell + rows.inner_low),
@@ -179,11 +179,11 @@ def _clipped(number: Floats, count: int) -> Ints:
     return np.clip(number, 0, count - 1).astype(np.int64)
 
 
-def _nearest(z: Floats, disc: Ints, cell: Ints, cells: int) -> tuple[Floats, Ints]:
-    """The smallest z of the discs named for each cell, and the lowest row that has it."""
-    smallest = np.full(cells, np.inf)
-    np.minimum.at(smallest, cell, z[disc])
-    equal = np.flatnonzero(z[disc] == smallest[cell])
-    lowest = np.full(cells, NOBODY)
-    np.minimum.at(lowest, cell[equal], disc[equal])
+def foremost(z: Floats, disc: Ints, place: Ints, places: int) -> tuple[Floats, Ints]:
+    """Return the smallest z of the discs named for each place, ∞ for none, and the lowest row that has it."""
+    smallest = np.full(places, np.inf)
+    np.minimum.at(smallest, place, z[disc])
+    equal = np.flatnonzero(z[disc] == smallest[place])
+    lowest = np.full(places, NOBODY)
+    np.minimum.at(lowest, place[equal], disc[equal])
     return smallest, lowest

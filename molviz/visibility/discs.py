@@ -13,7 +13,7 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.intervals import Intervals, gaps
 from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
-from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, cell_lists, nearer
+from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, nearer
 
 BLOCK_ROWS = 1 << 18  # pairs, intervals or tests at a time: keeps memory flat and the columns in cache
 TOUCH = 4.0 * np.finfo(float).eps  # of the lengths compared: perimeters this close to tangent touch and do not cross
@@ -54,14 +54,13 @@ class Pairs(NamedTuple):
     near: Ints  # (m,)
 
 
-def visible_arcs(spheres: Spheres, grid: Grid) -> tuple[DiscArcs, Work]:
-    """Return the visible arcs of n discs and the work it took; z of the spheres is depth, larger is farther.
+def visible_arcs(spheres: Spheres, grid: Grid, lists: CellLists) -> tuple[DiscArcs, Work]:
+    """Return the visible arcs of n ≥ 1 discs and the work it took; ``lists`` are those of the grid's cells.
 
-    The five steps of Franklin's section 5. Every change between visible and hidden along a perimeter happens where
+    Steps 4 and 5 of Franklin's section 5. Every change between visible and hidden along a perimeter happens where
     a pair on a common cell list crosses, so each arc that such pairs leave is wholly visible or wholly hidden, and
     its midpoint decides. Arcs do not depend on the grid, but for rounding.
     """
-    lists = cell_lists(spheres, grid)
     pairs, tested = pairs_on_lists(spheres, lists)
     visible, crossing = [], 0
     for remaining, crossings in _arcs_of_blocks(spheres, lists, pairs):
@@ -69,7 +68,7 @@ def visible_arcs(spheres: Spheres, grid: Grid) -> tuple[DiscArcs, Work]:
         crossing += crossings
     columns = (np.concatenate(column) for column in zip(*visible, strict=True))
     blocked = int(np.count_nonzero(lists.blocker != NOBODY))
-    return DiscArcs(*columns), Work(len(lists.item), blocked, tested, crossing)  # type: ignore[arg-type]
+    return DiscArcs(*columns), Work(len(lists.item), blocked, tested, crossing)
 
 
 def pairs_on_lists(spheres: Spheres, lists: CellLists) -> tuple[Pairs, int]:
