@@ -95,7 +95,7 @@ def _perspective(z: Floats) -> Floats:
 def _within_square(unit: Floats, radius: Floats) -> Floats:
     """Shrink x and y from [0, 1] to [r, 1 − r]; z stays."""
     if np.any(radius > 0.5):
-        raise InputError(f"radius {radius.max():.4g} is too large for the unit square, expected at most 0.5")
+        raise InputError(f"discs of radius {radius.max():.4g} do not fit into the unit square, expected at most 0.5")
     return np.column_stack([radius[:, None] + unit[:, :2] * (1.0 - 2.0 * radius[:, None]), unit[:, 2]])
 
 
