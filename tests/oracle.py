@@ -15,3 +15,24 @@ def all_pairs(spheres: Spheres) -> set[tuple[int, int]]:
     gap = np.linalg.norm(spheres.center[:, None] - spheres.center, axis=2)
     meets = gap < spheres.radius[:, None] + spheres.radius
     return {(int(i), int(j)) for i, j in np.argwhere(meets) if i < j}
+
+
+def seen_at(spheres: Spheres, page: np.ndarray) -> np.ndarray:
+    """The row of the sphere seen from +z at each page point (m, 2), −1 for none."""
+    height = heights(spheres, page)
+    return np.where(height.max(axis=1) > -np.inf, height.argmax(axis=1), -1)
+
+
+def heights(spheres: Spheres, page: np.ndarray) -> np.ndarray:
+    """z of each sphere's surface above each page point, −∞ beside it."""
+    flat = np.sum((page[:, None] - spheres.center[:, :2]) ** 2, axis=2)
+    with np.errstate(invalid="ignore"):
+        z = spheres.center[:, 2] + np.sqrt(spheres.radius**2 - flat)
+    return np.where(np.isnan(z), -np.inf, z)
+
+
+def winding(x: np.ndarray, y: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Winding number of the closed polygon x, y (k,) about each point (m, 2)."""
+    angle = np.arctan2(y - points[:, 1:], x - points[:, :1])
+    step = np.mod(np.diff(np.append(angle, angle[:, :1], axis=1), axis=1) + np.pi, 2 * np.pi) - np.pi
+    return np.round(step.sum(axis=1) / (2 * np.pi)).astype(int)

@@ -42,3 +42,8 @@ def test_above_solves_the_inequality() -> None:
     middle, half = above(a, b, c)
     assert np.allclose(half, [np.pi / 2, np.pi / 3, 0.0, np.pi])
     assert np.allclose(middle[:2], [0.0, np.pi / 2])
+
+
+@given(st.floats(-20, 20))
+def test_a_whole_turn_leaves_no_seam(start: float) -> None:
+    assert len(gaps(Intervals(np.array([0]), np.array([start]), np.array([TURN])), 1).circle) == 0

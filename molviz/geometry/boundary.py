@@ -59,7 +59,7 @@ def union_boundary(spheres: Spheres, near: Neighbours | None = None) -> Boundary
     number[alive[met]] = np.arange(len(met))
     pair, ball = cuts
     ball, circle = ball[number[pair] >= 0], number[pair[number[pair] >= 0]]
-    middle, half = _inside_ball(spheres, circles, circle, ball)
+    middle, half = inside_ball(spheres, circles, circle, ball)
     real = half > 0
     free = gaps(Intervals(circle[real], (middle - half)[real], 2 * half[real]), len(circles.first))
     name = np.append(ball[real], -1)  # row −1, no interval, becomes sphere −1
@@ -67,7 +67,7 @@ def union_boundary(spheres: Spheres, near: Neighbours | None = None) -> Boundary
     return Boundary(spheres, near, circles, arcs)
 
 
-def _inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:
+def inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:
     """Middle and half-width of the interval of each circle inside each ball.
 
     On sphere i, ``|p − ck|² < rk²`` is linear: ``2 (p − ci) · (ck − ci) > |ck − ci|² + ri² − rk²``.

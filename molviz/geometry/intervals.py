@@ -56,7 +56,7 @@ def gaps(hidden: Intervals, count: int) -> Gaps:
     is lost.
     """
     start = np.mod(hidden.start, TURN)
-    start[start >= TURN] = 0.0  # mod rounds a tiny negative angle up to a whole turn
+    start[(start >= TURN) | (hidden.sweep >= TURN)] = 0.0  # mod rounds a tiny negative angle up; and no seam in a whole
     end = start + hidden.sweep
     wraps = np.flatnonzero(end > TURN)
     row = np.concatenate([np.arange(len(start)), wraps])

@@ -3,6 +3,8 @@
 from typing import NamedTuple
 
 from molviz.arrays import Floats
+from molviz.model.molecule import Molecule
+from molviz.model.radii import DEFAULT, radii
 
 
 class Spheres(NamedTuple):
@@ -10,3 +12,11 @@ class Spheres(NamedTuple):
 
     center: Floats  # (n, 3) ångström
     radius: Floats  # (n,) ångström
+
+
+def spheres_of(
+    molecule: Molecule, table: str = DEFAULT, scale: float = 1.0, probe: float = 0.0
+) -> tuple[Spheres, tuple[str, ...]]:
+    """Return a sphere per atom, of ``scale`` times its radius in the table plus ``probe`` ångström, and warnings."""
+    radius, warnings = radii(molecule, table)
+    return Spheres(molecule.position, scale * radius + probe), warnings

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from molviz.picture.arcs import Paths
+from molviz.curves import Paths
 
 Color: TypeAlias = tuple[int, int, int]  # sRGB, 0 to 255 each
 

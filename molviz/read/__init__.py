@@ -1,1 +1,75 @@
 """Files become molecules: one reader per format, chosen by content and suffix."""
+
+import re
+from collections.abc import Callable
+from pathlib import PurePath
+
+from molviz.errors import InputError
+from molviz.read.pdb import read_pdb
+from molviz.read.reading import Reading
+from molviz.read.source import note, text_of
+from molviz.read.xyz import read_xyz
+from molviz.read.xyzr import read_xyzr
+
+__all__ = ["FORMATS", "READERS", "Reading", "read"]
+
+
+def _read_mmcif(data: bytes, source: str) -> Reading:
+    """Import the parser only when an mmCIF file comes: it takes longer to load than a small file to read."""
+    from molviz.read.mmcif import read_mmcif
+
+    return read_mmcif(data, source)
+
+
+FORMATS: dict[str, Callable[[bytes, str], Reading]] = {
+    "pdb": read_pdb,
+    "mmcif": _read_mmcif,
+    "xyz": read_xyz,
+    "extxyz": read_xyz,
+    "xyzr": read_xyzr,
+}
+READERS = {  # suffix → name of the format
+    ".pdb": "pdb",
+    ".ent": "pdb",
+    ".cif": "mmcif",
+    ".mmcif": "mmcif",
+    ".xyz": "xyz",
+    ".extxyz": "extxyz",
+    ".xyzr": "xyzr",
+}
+_NUMBER = rb"[+-]?[\d.]+(?:[eE][+-]?\d+)?"
+_SIGNS = {  # what the first line that says something looks like
+    "mmcif": re.compile(rb"data_", re.IGNORECASE),
+    "xyz": re.compile(rb"\s*[+-]?\d+\s*$"),
+    "xyzr": re.compile(rb"\s*" + rb"\s+".join([_NUMBER] * 4) + rb"\s*(#|$)"),
+    "pdb": re.compile(
+        rb"(ATOM|HETATM|HEADER|TITLE|COMPND|CRYST1|MODEL|REMARK|OBSLTE|SPLIT|CAVEAT|EXPDTA|AUTHOR|MODRES)(\s|$|\d)"
+    ),
+}
+
+
+def read(source: str, data: bytes | None = None, format: str | None = None) -> Reading:
+    """Return what a file holds; ``data`` is its content where it is not to be opened (standard input).
+
+    The format is the one given (``"pdb"``, ``"mmcif"``, ``"xyz"``, ``"extxyz"``, ``"xyzr"``), else what the content
+    shows, else what the suffix says. Raises InputError, naming file, line and reason, for all that is not clear.
+    """
+    text, warnings = text_of(source, data)
+    suffix = PurePath(source.lower().removesuffix(".gz")).suffix
+    named = READERS.get(suffix)
+    name = format or _recognised(text) or named
+    if name not in FORMATS:
+        expected = ", ".join(FORMATS)
+        raise InputError(f"neither content nor suffix {suffix!r} tell the format; expected one of {expected}", source)
+    reading = FORMATS[name](text, source)
+    if not format and named and FORMATS[named] is not FORMATS[name]:
+        warnings.append(note(f"the suffix {suffix} says {named}, but the content is {name}; read as {name}", source))
+    return reading.warned(warnings)
+
+
+def _recognised(text: bytes) -> str | None:
+    """Return the format that the first lines show, or None."""
+    for line in text[:4096].split(b"\n"):
+        if line.strip() and not line.startswith(b"#"):
+            return next((name for name, sign in _SIGNS.items() if sign.match(line)), None)
+    return None

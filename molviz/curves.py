@@ -28,6 +28,15 @@ class PlaneArcs(NamedTuple):
         """Return the points (k, 2) at one parameter per arc."""
         return self.c + self.u * np.cos(t)[:, None] + self.v * np.sin(t)[:, None]
 
+    def half_extent(self) -> Floats:
+        """Return the half-widths (k, 2) of the bounding boxes of the whole ellipses about their centres."""
+        return np.hypot(self.u, self.v)
+
+    def major(self) -> Floats:
+        """Return the major semi-axes (k,): the root of the larger eigenvalue of ``u uᵀ + v vᵀ``."""
+        uu, vv, uv = (np.einsum("ij,ij->i", x, y) for x, y in ((self.u, self.u), (self.v, self.v), (self.u, self.v)))
+        return np.asarray(np.sqrt((uu + vv) / 2 + np.hypot((uu - vv) / 2, uv)))
+
     def moved(self, scale: float, shift: Floats) -> "PlaneArcs":
         """Return the arcs after ``x → scale x + shift``."""
         return PlaneArcs(self.c * scale + shift, self.u * scale, self.v * scale, self.start, self.sweep)

@@ -1,0 +1,49 @@
+"""Controlled perturbation: a copy of the spheres in which no four things meet by accident.
+
+Files carry three decimals, ideal geometry and symmetry, so tangent spheres, coinciding outlines and four spheres
+through a point are the normal case. Following Halperin & Shelton 1998 ("A perturbation scheme for spherical
+arrangements with application to molecular modeling"), drawings are computed for a copy that is displaced by a
+reproducible, invisible amount; whoever finds the copy degenerate after all asks for the next one.
+"""
+
+import numpy as np
+
+from molviz.arrays import Floats, Ints
+from molviz.model.spheres import Spheres
+
+DISPLACEMENT = 5e-5  # of a sphere's radius: 1e-4 Å for an atom, below a file's precision and far above rounding
+
+
+def general_position(spheres: Spheres, attempt: int = 0) -> tuple[Spheres, Ints]:
+    """Return a displaced copy without exact duplicates, and the rows of the spheres in it.
+
+    Radii shrink by a little more than the displacement, so that spheres which touch from outside come apart instead
+    of opening a sliver of a crease.
+    """
+    rows = _first_of_each(spheres)
+    radius = spheres.radius[rows]
+    direction = _unit_vectors(rows, attempt)
+    center = spheres.center[rows] + direction * (DISPLACEMENT * radius)[:, None]
+    return Spheres(center, radius * (1.0 - 1.01 * DISPLACEMENT)), rows
+
+
+def _first_of_each(spheres: Spheres) -> Ints:
+    table = np.column_stack([spheres.center, spheres.radius])
+    return np.sort(np.unique(table, axis=0, return_index=True)[1])
+
+
+def _unit_vectors(rows: Ints, attempt: int) -> Floats:
+    """Directions (n, 3), uniform on the sphere by Archimedes' map, from a hash of the row number."""
+    height = 2.0 * _hash_to_unit(rows, 2 * attempt) - 1.0
+    angle = 2.0 * np.pi * _hash_to_unit(rows, 2 * attempt + 1)
+    around = np.sqrt(1.0 - height**2)
+    return np.stack([around * np.cos(angle), around * np.sin(angle), height], axis=1)
+
+
+def _hash_to_unit(rows: Ints, stream: int) -> Floats:
+    """Numbers in [0, 1) by the finaliser of SplitMix64 (Steele, Lea & Flood 2014): the same on every machine."""
+    seed = (stream + 1) * 0x9E3779B97F4A7C15 % 2**64
+    x = (rows.astype(np.uint64) + np.uint64(1)) * np.uint64(0xD1342543DE82EF95) + np.uint64(seed)
+    x = (x ^ (x >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    x = (x ^ (x >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return np.asarray((x ^ (x >> np.uint64(31))) >> np.uint64(11), dtype=np.float64) / 2.0**53

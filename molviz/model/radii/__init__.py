@@ -1,0 +1,157 @@
+"""Radii of atoms: one file per publication beside this module, or the user's own."""
+
+import sys
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from molviz.arrays import Floats, Strings
+from molviz.errors import InputError
+from molviz.model.elements import symbol_of
+from molviz.model.molecule import Molecule
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+TABLES = {
+    "bondi": "van der Waals radii, Bondi 1964 completed by Mantina et al. 2009",
+    "mantina": "van der Waals radii of the main group, Mantina et al. 2009",
+    "alvarez": "van der Waals radii, Alvarez 2013",
+    "covalent": "covalent radii, Cordero et al. 2008",
+    "protor": "united atoms of proteins, Tsai et al. 1999 (ProtOr); all else as bondi",
+    "chothia": "united atoms of proteins, Chothia 1976; all else as bondi",
+}
+DEFAULT = "bondi"
+GUESS = 2.0  # ångström, where the table has nothing: about the mean of the metals of Bondi's table and of Mantina's
+
+
+@dataclass(frozen=True)
+class RadiiTable:
+    """Radii in ångström by element, and by (residue name, atom name) where the table distinguishes them."""
+
+    title: str
+    source: str
+    elements: Mapping[str, float]
+    atoms: Mapping[tuple[str, str], float]
+    implicit_hydrogens: bool
+
+
+def load_table(name: str) -> RadiiTable:
+    """Return a published table by its name in ``TABLES``, or the one in the user's file.
+
+    A user's file is TOML as the published ones are (``[elements]``; ``[types]`` and ``[residues]`` for united atoms),
+    or text of two columns, element and radius in ångström, with ``#`` for comments. Raises InputError where there is
+    no such file, or it holds a name that is no element or a radius that is not positive and finite.
+    """
+    if name in TABLES:
+        return _table(_toml(Path(__file__).with_name(f"{name}.toml")), TABLES[name], name)
+    path = Path(name)
+    if not path.is_file():
+        raise InputError(f"no radii table {name!r}; expected one of {', '.join(TABLES)}, or a file")
+    return _table(_toml(path) if path.suffix == ".toml" else _two_columns(path), path.name, name)
+
+
+def radii(molecule: Molecule, table: str = DEFAULT) -> tuple[Floats, tuple[str, ...]]:
+    """Return the radius (n,) of every atom in ångström, and warnings, one of a kind.
+
+    The file's own radius goes first, then the table's for residue and atom name, then its for the element (D being
+    H), and ``GUESS``, with a warning, where there is none.
+    """
+    loaded = load_table(table)
+    element = np.where(molecule.element == "D", "H", molecule.element)
+    tabulated = _by_element(element, loaded.elements)
+    if loaded.atoms:
+        by_atom = _by_atom(molecule, loaded.atoms)
+        tabulated = np.where(np.isnan(by_atom), tabulated, by_atom)
+    needed = np.isnan(molecule.radius)
+    guessed = needed & np.isnan(tabulated)
+    radius = np.where(needed, np.where(guessed, GUESS, tabulated), molecule.radius)
+    warnings = _guess_notes(element[guessed], table)
+    if loaded.implicit_hydrogens and (needed & (element == "H")).any():
+        warnings.append(f"table {table} counts hydrogens within the heavy atoms, yet the molecule has its own as well")
+    return radius, tuple(warnings)
+
+
+def _guess_notes(element: Strings, table: str) -> list[str]:
+    if not len(element):
+        return []
+    counts = ", ".join(f"{symbol} ({count})" for symbol, count in sorted(Counter(element.tolist()).items()))
+    return [f"radius guessed as {GUESS:.2f} Å, for table {table} has none: {counts}"]
+
+
+def _by_element(element: Strings, elements: Mapping[str, float]) -> Floats:
+    symbols, which = np.unique(element, return_inverse=True)
+    return np.array([elements.get(symbol, np.nan) for symbol in symbols.tolist()])[which]
+
+
+def _by_atom(molecule: Molecule, atoms: Mapping[tuple[str, str], float]) -> Floats:
+    keys = zip(molecule.residue_name.tolist(), molecule.atom_name.tolist(), strict=True)
+    return np.array([atoms.get(key, np.nan) for key in keys])
+
+
+# ---- files
+
+
+def _toml(path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"no radii table: {error}; expected TOML with [elements]", str(path)) from error
+
+
+def _two_columns(path: Path) -> dict[str, Any]:
+    elements = {}
+    for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), start=1):
+        words = line.partition("#")[0].split()
+        if not words:
+            continue
+        if len(words) != 2:
+            raise InputError(f"{len(words)} words; expected an element and a radius", str(path), number)
+        elements[words[0]] = _radius(words[1], words[0], str(path), number)
+    return {"elements": elements}
+
+
+def _table(content: Mapping[str, Any], title: str, name: str) -> RadiiTable:
+    elements = {_symbol(text, name): _radius(value, text, name) for text, value in content.get("elements", {}).items()}
+    types = {text: _radius(value, text, name) for text, value in content.get("types", {}).items()}
+    atoms = _atoms(content.get("residues", {}), types, name)
+    if not elements and not atoms:
+        raise InputError("the radii table is empty; expected [elements]", name)
+    source = content.get("source", name)
+    if "completed_by" in content:
+        rest = load_table(content["completed_by"])
+        elements, source = {**rest.elements, **elements}, f"{source}; completed by {rest.source}"
+    return RadiiTable(title, source, elements, atoms, bool(content.get("implicit_hydrogens", False)))
+
+
+def _atoms(residues: Mapping[str, Any], types: Mapping[str, float], name: str) -> dict[tuple[str, str], float]:
+    atoms = {}
+    for residue, names_of_type in residues.items():
+        for kind, names in names_of_type.items():
+            if kind not in types:
+                raise InputError(f"residue {residue} has atoms of type {kind}; expected one of [types]", name)
+            atoms.update({(residue, atom): types[kind] for atom in names.split()})
+    return atoms
+
+
+def _symbol(text: str, name: str) -> str:
+    symbol = symbol_of(text)
+    if not symbol:
+        raise InputError(f"{text!r} is no element; expected a chemical symbol", name)
+    return "H" if symbol == "D" else symbol
+
+
+def _radius(value: object, what: str, name: str, line: int | None = None) -> float:
+    try:
+        radius = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        radius = np.nan
+    if not 0 < radius < np.inf:
+        raise InputError(f"radius of {what} is {value!r}; expected a number above 0, in ångström", name, line)
+    return radius

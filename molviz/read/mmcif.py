@@ -1,0 +1,307 @@
+"""mmCIF by gemmi's parser of CIF syntax, and small-molecule CIF by its symmetry; the values are checked here.
+
+S. R. Hall, F. H. Allen, I. D. Brown (1991) The crystallographic information file. Acta Cryst. A47, 655-685;
+PDBx/mmCIF dictionary, categories atom_site, pdbx_struct_assembly_gen and pdbx_struct_oper_list.
+"""
+
+import itertools
+import re
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from pathlib import PurePath
+
+import gemmi
+import numpy as np
+from gemmi import cif
+
+from molviz.arrays import Floats, Ints, Strings
+from molviz.errors import InputError
+from molviz.model.elements import UNKNOWN, symbol_of_atom_name, symbol_of_label
+from molviz.model.molecule import Molecule
+from molviz.read.atoms import AtomTable, coinciding_note, coinciding_rows, models_of
+from molviz.read.numbers import Texts, is_number, numbers
+from molviz.read.reading import AssemblyPart, Reading
+from molviz.read.source import note
+
+_AXES = ("x", "y", "z")
+_CARTESIAN = tuple(f"_atom_site.Cartn_{axis}" for axis in _AXES)
+_FRACTIONAL = tuple(f"_atom_site_fract_{axis}" for axis in _AXES)
+_UNCERTAINTY = re.compile(rb"\(\d+\)$")  # 1.234(5): standard uncertainty in the last digits
+_TOKEN = re.compile(r"""'.*?'(?=\s|$)|".*?"(?=\s|$)|\#.*|\S+""")
+_POSITION = re.compile(r"^[^:]*:(\d+):\S* *")
+
+
+def read_mmcif(data: bytes, source: str) -> Reading:
+    """Return the models of an mmCIF file, or all sites in the unit cell of a small-molecule CIF.
+
+    Raises InputError where the syntax is broken, there are no atoms, or a coordinate is not a finite number.
+    """
+    text = _decoded(data)
+    lines = text.split("\n")
+    document = _document(text, lines, source)
+    for block in document:
+        if any(block.find_values(tag) for tag in _CARTESIAN):
+            return _macromolecule(Site(block, lines, source))
+        if any(block.find_values(tag) for tag in _FRACTIONAL):
+            return _unit_cell(Site(block, lines, source))
+    raise InputError("no _atom_site with coordinates; expected a CIF file with atoms", source)
+
+
+def _decoded(data: bytes) -> str:
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
+def _document(text: str, lines: list[str], source: str) -> cif.Document:
+    try:
+        return cif.read_string(text)
+    except (ValueError, RuntimeError) as error:
+        match = _POSITION.match(str(error))
+        line = int(match[1]) if match else None
+        reason = str(error)[match.end() :] if match else str(error)
+        if line and reason.startswith("Wrong number of values"):
+            reason, line = _incomplete_loop(lines, line, reason)
+        elif line and lines[line - 1].startswith(";"):
+            reason = "the text field that opens here is not closed"
+        raise InputError(f"{reason}; expected correct CIF", source, line) from error
+
+
+def _incomplete_loop(lines: list[str], start: int, reason: str) -> tuple[str, int]:
+    """Return a reason with figures, and the last line of the loop that begins at the line."""
+    tags = sum(1 for _ in itertools.takewhile(lambda line: line.lstrip().startswith("_"), lines[start:]))
+    where = list(_lines_of_values(lines, start))
+    return f"{reason} ({len(where)} for the {tags} tags from line {start})", where[-1] if where else start
+
+
+def _lines_of_values(lines: list[str], start: int) -> Iterator[int]:
+    """Yield the line of every value of the loop that begins at the line, both counted from one."""
+    begun = in_text = False
+    for number, line in enumerate(lines[start - 1 :], start=start):
+        if line.startswith(";"):
+            if not in_text:
+                yield number
+            begun, in_text = True, not in_text
+            continue
+        for token in [] if in_text else _TOKEN.findall(line):
+            if token[0] == "#" or (not begun and (token[0] == "_" or token.lower() == "loop_")):
+                continue
+            if token[0] == "_" or token.lower().startswith(("loop_", "data_")):
+                return
+            begun = True
+            yield number
+
+
+class Site:
+    """The category atom_site of a block, column by column."""
+
+    def __init__(self, block: cif.Block, lines: list[str], source: str) -> None:
+        self.block, self.lines, self.source = block, lines, source
+
+    def texts(self, tag: str) -> Strings | None:
+        """Return a column (n,), ``""`` for ``.`` and ``?`` and quotes removed; None where it is missing."""
+        values = list(self.block.find_values(tag))
+        if not values:
+            return None
+        clean = {value: "" if value in (".", "?") else cif.as_string(value) for value in set(values)}
+        return np.array([clean[value] for value in values])
+
+    def first_texts(self, *tags: str) -> Strings:
+        """Return a column whose blanks are filled from the later tags; blank where all are missing."""
+        columns = [column for column in map(self.texts, tags) if column is not None]
+        if not columns:
+            return np.full(len(self), "")
+        filled = columns[0]
+        for column in columns[1:]:
+            filled = np.where(filled == "", column, filled)
+        return filled
+
+    def coordinates(self, tags: tuple[str, ...]) -> Floats:
+        """Return three columns of finite numbers as (n, 3); raises InputError at the first value that is none."""
+        return np.column_stack([self._coordinate(tag) for tag in tags])
+
+    def _coordinate(self, tag: str) -> Floats:
+        values = list(self.block.find_values(tag))
+        if not values:
+            raise InputError(f"{tag} is missing; expected all of {', '.join(_AXES)}", self.source, self.line_of(0))
+
+        def error(row: int, text: str) -> InputError:
+            return InputError(f"{tag} is {text!r}; expected a finite number", self.source, self.line_of(row))
+
+        return numbers(_without_uncertainty(values), error)
+
+    def optional(self, tag: str, default: float) -> tuple[Floats, list[str]]:
+        """Return a column of numbers, the default for ``.`` and ``?``, and a warning where one is something else."""
+        values = list(self.block.find_values(tag)) or ["."] * len(self)
+        octets = {value: _UNCERTAINTY.sub(b"", value.encode()) for value in set(values)}
+        known = {value: float(octet) if is_number(octet) else default for value, octet in octets.items()}
+        wrong = {value for value in octets if value not in (".", "?") and not is_number(octets[value])}
+        column = np.array([known[value] for value in values])
+        if not wrong:
+            return column, []
+        row = next(row for row, value in enumerate(values) if value in wrong)
+        message = f"{tag} {values[row]!r} is no number; taken as {default:g}"
+        return column, [note(message, self.source, self.line_of(row))]
+
+    def __len__(self) -> int:
+        tags = (*_CARTESIAN, *_FRACTIONAL)
+        return max(len(self.block.find_values(tag)) for tag in tags)
+
+    @cached_property
+    def _line_of_row(self) -> list[int]:
+        column = next(column for tag in (*_CARTESIAN, *_FRACTIONAL) if (column := self.block.find_values(tag)))
+        loop = column.get_loop()
+        item = self.block.find_loop_item(column.tag)
+        if loop is None or item is None:
+            return []
+        return list(_lines_of_values(self.lines, item.line_number))[:: loop.width()]
+
+    def line_of(self, row: int) -> int | None:
+        """Return the line at which a row begins, None where the atom is not in a loop."""
+        return self._line_of_row[row] if row < len(self._line_of_row) else None
+
+
+def _without_uncertainty(values: list[str]) -> Texts:
+    octets = [value.encode() for value in values]
+    if any(octet.endswith(b")") for octet in octets):
+        octets = [_UNCERTAINTY.sub(b"", octet) for octet in octets]
+    return np.array(octets)
+
+
+# ---- macromolecules
+
+
+def _macromolecule(site: Site) -> Reading:
+    position = site.coordinates(_CARTESIAN)
+    occupancy, warnings = site.optional("_atom_site.occupancy", 1.0)
+    bfactor, more = site.optional("_atom_site.B_iso_or_equiv", np.nan)
+    number = site.first_texts("_atom_site.auth_seq_id", "_atom_site.label_seq_id")
+    atom_name = site.first_texts("_atom_site.label_atom_id", "_atom_site.auth_atom_id")
+    residue_name = site.first_texts("_atom_site.label_comp_id", "_atom_site.auth_comp_id")
+    element, still_more = _elements(site, atom_name, residue_name)
+    table = AtomTable(
+        position=position, element=element, atom_name=atom_name, residue_name=residue_name,
+        residue=np.char.add(number, site.first_texts("_atom_site.pdbx_PDB_ins_code")),
+        chain=site.first_texts("_atom_site.auth_asym_id", "_atom_site.label_asym_id"),
+        operator_chain=site.first_texts("_atom_site.label_asym_id", "_atom_site.auth_asym_id"),
+        bfactor=bfactor, occupancy=occupancy, alternate=site.first_texts("_atom_site.label_alt_id"),
+        model=_order_of_first(site.first_texts("_atom_site.pdbx_PDB_model_num")), line_of=site.line_of,
+    )  # fmt: skip
+    models = models_of(table, _name(site), site.source)
+    assemblies, last = _assemblies(site)
+    told = (*warnings, *more, *still_more, *models.warnings, *last)
+    return Reading(site.source, "mmcif", models.molecules, assemblies, told, models.operator_chain)
+
+
+def _order_of_first(texts: Strings) -> Ints:
+    """Return for every text (n,) how many different ones came before its first appearance."""
+    order: dict[str, int] = {}
+    return np.array([order.setdefault(text, len(order)) for text in texts.tolist()])
+
+
+def _elements(site: Site, atom_name: Strings, residue_name: Strings) -> tuple[Strings, list[str]]:
+    """Return symbols of the type symbols, else of the atom names, and a warning where neither holds one."""
+    symbols = site.first_texts("_atom_site.type_symbol").tolist()
+    keys = list(zip(symbols, atom_name.tolist(), residue_name.tolist(), strict=True))
+    element_of = {key: _element(*key) for key in set(keys)}
+    element = np.array([element_of[key] for key in keys])
+    unknown = np.flatnonzero(element == UNKNOWN)
+    if not len(unknown):
+        return element, []
+    message = f"{len(unknown)} atoms whose element is unknown, the first is {atom_name[unknown[0]]!r}"
+    return element, [note(message, site.source, site.line_of(int(unknown[0])))]
+
+
+def _element(symbol: str, atom_name: str, residue_name: str) -> str:
+    if symbol and symbol_of_label(symbol) != UNKNOWN:
+        return symbol_of_label(symbol)
+    return symbol_of_atom_name(atom_name if len(atom_name) >= 4 else f" {atom_name}", residue_name)
+
+
+def _name(site: Site) -> str:
+    for tag in ("_struct.title", "_entry.id"):
+        value = site.block.find_value(tag)
+        if value and value not in (".", "?"):
+            return " ".join(cif.as_string(value).split())
+    return site.block.name or PurePath(site.source.removesuffix(".gz")).stem
+
+
+# ---- assemblies
+
+
+def _assemblies(site: Site) -> tuple[Mapping[str, tuple[AssemblyPart, ...]], list[str]]:
+    """Return the assemblies whose operators are complete, and a warning where one is not."""
+    operators, warnings = _operators(site), []
+    assemblies: dict[str, tuple[AssemblyPart, ...]] = {}
+    tags = ["assembly_id", "oper_expression", "asym_id_list"]
+    for row in site.block.find("_pdbx_struct_assembly_gen.", tags):
+        name, expression, chains = (row.str(column) for column in range(3))
+        products = list(itertools.product(*_factors(expression)))
+        if not all(factor in operators for product in products for factor in product):
+            message = f"assembly {name!r} has an operator {expression!r} that the file does not define; left out"
+            warnings.append(note(message, site.source))
+            continue
+        moves = np.array([_product([operators[factor] for factor in product]) for product in products])
+        part = AssemblyPart(frozenset(chains.replace(" ", "").split(",")), moves)
+        assemblies[name] = (*assemblies.get(name, ()), part)
+    return assemblies, warnings[:1]
+
+
+def _factors(expression: str) -> list[list[str]]:
+    """Return the operators of every factor of an expression such as ``1,3``, ``(1-60)`` or ``(X0)(1-5,P)``."""
+    groups = re.findall(r"\(([^()]*)\)", expression) or [expression]
+    return [[name for item in group.replace(" ", "").split(",") for name in _range(item)] for group in groups]
+
+
+def _range(item: str) -> list[str]:
+    match = re.fullmatch(r"(\d+)-(\d+)", item)
+    return [str(number) for number in range(int(match[1]), int(match[2]) + 1)] if match else [item]
+
+
+def _operators(site: Site) -> dict[str, Floats]:
+    """Return the operators (4, 4) of the list, those with a value that is no number left out."""
+    cells = [f"matrix[{i}][{j}]" if j < 4 else f"vector[{i}]" for i in (1, 2, 3) for j in (1, 2, 3, 4)]
+    operators = {}
+    for row in site.block.find("_pdbx_struct_oper_list.", ["id", *cells]):
+        values = [row.str(column) for column in range(1, 13)]
+        if all(is_number(value.encode()) for value in values):
+            top = np.array(values, dtype=float).reshape(3, 4)
+            operators[row.str(0)] = np.vstack([top, [0, 0, 0, 1]])
+    return operators
+
+
+def _product(factors: list[Floats]) -> Floats:
+    """Return (3, 4) of the operators applied one after the other, the last first."""
+    product = np.eye(4)
+    for factor in factors:
+        product = product @ factor
+    return product[:3]
+
+
+# ---- small molecules
+
+
+def _unit_cell(site: Site) -> Reading:
+    """Return all atoms of one unit cell, fractional coordinates in [0, 1)."""
+    site.coordinates(_FRACTIONAL)
+    small = gemmi.make_small_structure_from_block(site.block)
+    _check_cell(small.cell, site.source)
+    sites = small.get_all_unit_cell_sites()
+    fraction = np.array([atom.fract.tolist() for atom in sites])
+    fraction -= np.floor(fraction + 1e-6)  # operators in double precision leave 0 as −1e−17
+    position = fraction @ np.array(small.cell.orth.mat.tolist()).T
+    label = np.array([atom.label for atom in sites])
+    element = np.array([symbol_of_label(atom.type_symbol or atom.label) for atom in sites])
+    molecule = Molecule.of(_name(site), position, element, atom_name=label)
+    again = coinciding_rows(position)
+    warnings = [coinciding_note(len(again), site.source, None)] if len(again) else []
+    if small.spacegroup is None:
+        warnings.append(note("no space group known; only the listed atoms are drawn", site.source))
+    return Reading(site.source, "mmcif", (molecule,), {}, tuple(warnings), (molecule.chain,))
+
+
+def _check_cell(cell: gemmi.UnitCell, source: str) -> None:
+    lengths = (cell.a, cell.b, cell.c, cell.volume)
+    if not cell.is_crystal() or not all(0 < length < np.inf for length in lengths):
+        raise InputError("fractional coordinates without a unit cell; expected _cell_length_a and the like", source)

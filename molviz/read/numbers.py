@@ -1,0 +1,44 @@
+"""Columns of text to columns of finite numbers, without forgiveness."""
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from molviz.arrays import Floats
+from molviz.errors import InputError
+
+Texts = NDArray[np.bytes_]
+_NUMBER = re.compile(rb" *[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)? *")
+_LEGAL = np.isin(np.arange(256), np.frombuffer(b"0123456789+-.eE \0", np.uint8))
+_FORTRAN = np.where(np.isin(np.arange(256), (ord("d"), ord("D"))), ord("E"), np.arange(256)).astype(np.uint8)
+
+
+def numbers(texts: Texts, error: Callable[[int, str], InputError]) -> Floats:
+    """Return the texts (n,) as finite numbers; decimal, with an exponent after e, E or Fortran's d, D.
+
+    ``error(row, text)`` makes the exception for the first text that is no such number: blank, ``abc``, ``15,268``,
+    ``********``, ``nan``, ``inf`` and ``1_0`` are none.
+    """
+    octets = _FORTRAN[texts.view(np.uint8).reshape(len(texts), -1)]
+    if _LEGAL[octets].all():
+        values = _converted(octets.view(texts.dtype).ravel())
+        if values is not None:
+            return values
+    row = next(row for row, text in enumerate(texts) if not is_number(text))
+    raise error(row, texts[row].decode("latin-1"))
+
+
+def is_number(text: bytes) -> bool:
+    """Tell whether the text is a finite decimal number."""
+    return bool(_NUMBER.fullmatch(text)) and abs(float(re.sub(rb"[dD]", b"e", text))) < np.inf
+
+
+def _converted(texts: "np.ndarray[Any, np.dtype[np.bytes_]]") -> Floats | None:
+    try:
+        values = texts.astype(np.float64)
+    except ValueError:
+        return None
+    return values if np.isfinite(values).all() else None

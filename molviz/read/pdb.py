@@ -1,0 +1,279 @@
+"""The PDB format: every column of the file at once, as a table of bytes.
+
+wwPDB, "Protein Data Bank Contents Guide: Atomic Coordinate Entry Format Description", version 3.3.
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import PurePath
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from molviz.arrays import Bools, Floats, Ints, Strings
+from molviz.errors import InputError
+from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_atom_name
+from molviz.read.atoms import AtomTable, models_of
+from molviz.read.numbers import Texts, is_number, numbers
+from molviz.read.reading import AssemblyPart, Reading
+from molviz.read.source import note
+
+Octets = NDArray[np.uint8]
+WIDTH = 80
+_COORDINATES = {"x": (31, 38), "y": (39, 46), "z": (47, 54)}
+_HYBRID_36 = re.compile(r"([A-Z][0-9A-Z]{3}|[a-z][0-9a-z]{3})(?![0-9])(.?)$")
+
+
+class Lines(NamedTuple):
+    """The lines of a text, cut and padded with blanks to 80 columns."""
+
+    octet: Octets  # (n, 80)
+    length: Ints  # (n,) as in the file
+    number: Ints  # (n,) counted from one
+
+    def take(self, rows: Ints | Bools) -> "Lines":
+        """Return the given lines."""
+        return Lines(self.octet[rows], self.length[rows], self.number[rows])
+
+    def field(self, first: int, last: int) -> Texts:
+        """Return the columns ``first`` to ``last``, counted from one as the format does, as texts (n,)."""
+        return np.ascontiguousarray(self.octet[:, first - 1 : last]).view(f"S{last - first + 1}").ravel()
+
+    def texts(self) -> Iterator[tuple[int, str]]:
+        """Yield number and text of every line, blanks at its end removed."""
+        for number, text in zip(self.number.tolist(), self.field(1, WIDTH).tolist(), strict=True):
+            yield number, text.decode("latin-1").rstrip()
+
+
+def read_pdb(data: bytes, source: str) -> Reading:
+    """Return the models of a PDB file; raises InputError at the first atom that is not clear."""
+    lines = _lines(data)
+    record = np.char.upper(lines.field(1, 6))
+    is_atom = np.char.startswith(record, b"ATOM") | np.char.startswith(record, b"HETATM")
+    if not is_atom.any():
+        raise InputError("no ATOM or HETATM records; expected a PDB file with atoms", source)
+    atoms = lines.take(is_atom)
+    _check_columns(atoms, source)
+    model, warnings = _models(record, lines, is_atom, source)
+    table, more = _table(atoms, model, source)
+    models = models_of(table, _title(record, lines, source), source)
+    assemblies = _assemblies(lines.take(np.char.startswith(lines.field(1, 10), b"REMARK 350")), source)
+    told = (*warnings, *more, *models.warnings, *_connections(record, lines, source))
+    return Reading(source, "pdb", models.molecules, assemblies, told, models.operator_chain)
+
+
+def _lines(data: bytes) -> Lines:
+    padded = np.frombuffer(data + b"\n" + b" " * WIDTH, np.uint8)
+    stop = np.flatnonzero(padded == ord("\n"))
+    start = np.concatenate([[0], stop[:-1] + 1])
+    octet = np.lib.stride_tricks.sliding_window_view(padded, WIDTH)[start]
+    length = stop - start
+    short = np.flatnonzero(length < WIDTH)
+    octet[short] = np.where(np.arange(WIDTH) < length[short, None], octet[short], ord(" "))
+    return Lines(octet, length, np.arange(1, len(start) + 1))
+
+
+def _check_columns(atoms: Lines, source: str) -> None:
+    """Refuse atom records that end inside the coordinates or have tabs, which leave no fixed columns."""
+    tabs = (atoms.octet == ord("\t")).any(axis=1)
+    for bad in np.flatnonzero(tabs | (atoms.length < _COORDINATES["z"][1]))[:1].tolist():
+        line = int(atoms.number[bad])
+        if tabs[bad]:
+            raise InputError("tabs in an atom record; expected blanks and fixed columns", source, line)
+        raise InputError(
+            f"the record ends at column {atoms.length[bad]}; expected coordinates in columns 31-54", source, line
+        )
+
+
+# ---- models
+
+
+def _models(record: Texts, lines: Lines, is_atom: Bools, source: str) -> tuple[Ints, list[str]]:
+    """Return the model (n,) of every atom, and warnings.
+
+    MODEL, ENDMDL and END each part what is before from what is behind, so that a missing number or a missing ENDMDL
+    costs no atom. Models without atoms are passed over.
+    """
+    word = np.char.rstrip(record)
+    opens, closes = word == b"MODEL", word == b"ENDMDL"
+    parts = np.cumsum(opens | closes | (word == b"END"))
+    opening, closing = np.flatnonzero(opens), np.flatnonzero(closes)
+    warnings = _model_number_notes(lines.take(opening), source)
+    unclosed = opening[1:][np.diff(np.searchsorted(closing, opening)) == 0]
+    if len(unclosed):
+        warnings.append(note("MODEL before the ENDMDL of the model above", source, int(lines.number[unclosed[0]])))
+    return np.unique(parts[is_atom], return_inverse=True)[1], warnings
+
+
+def _model_number_notes(openings: Lines, source: str) -> list[str]:
+    seen: set[str] = set()
+    for line, text in openings.texts():
+        number = text[5:].strip()
+        if not number.isdigit():
+            return [note("MODEL without a number; models are counted in their order", source, line)]
+        if number in seen:
+            return [note(f"MODEL {number} again; models are counted in their order", source, line)]
+        seen.add(number)
+    return []
+
+
+# ---- atoms
+
+
+def _table(atoms: Lines, model: Ints, source: str) -> tuple[AtomTable, list[str]]:
+    element, warnings = _elements(atoms, source)
+    occupancy, more = _optional(atoms, "occupancy", 55, 60, 1.0, source)
+    bfactor, still_more = _optional(atoms, "B-factor", 61, 66, np.nan, source)
+    chain = _names(atoms, 22, 22)
+    table = AtomTable(
+        position=_positions(atoms, source), element=element, atom_name=_names(atoms, 13, 16),
+        residue_name=_names(atoms, 18, 21), residue=_residues(_names(atoms, 23, 27)), chain=chain,
+        operator_chain=chain, bfactor=bfactor, occupancy=occupancy, alternate=_names(atoms, 17, 17), model=model,
+        line_of=lambda row: int(atoms.number[row]),
+    )  # fmt: skip
+    return table, [*warnings, *more, *still_more]
+
+
+def _positions(atoms: Lines, source: str) -> Floats:
+    def error_in(axis: str, first: int, last: int) -> Any:
+        def error(row: int, text: str) -> InputError:
+            what = f"{axis} coordinate (columns {first}-{last}) is {repr(text.strip()) if text.strip() else 'blank'}"
+            return InputError(f"{what}; expected a finite number", source, int(atoms.number[row]))
+
+        return error
+
+    columns = [
+        numbers(atoms.field(first, last), error_in(axis, first, last)) for axis, (first, last) in _COORDINATES.items()
+    ]
+    return np.column_stack(columns)
+
+
+def _optional(atoms: Lines, what: str, first: int, last: int, default: float, source: str) -> tuple[Floats, list[str]]:
+    """Return a column that may be blank, and a warning where it is neither blank nor a number."""
+    texts, which = np.unique(atoms.field(first, last), return_inverse=True)
+    readable = np.array([is_number(text) for text in texts.tolist()])
+    values = np.full(len(texts), default)
+    values[readable] = texts[readable].astype(float)
+    wrong = ~readable & (np.char.strip(texts) != b"")
+    rows = np.flatnonzero(wrong[which])
+    if not len(rows):
+        return values[which], []
+    text = texts[which[rows[0]]].decode("latin-1").strip()
+    message = f"{what} {text!r} (columns {first}-{last}) is no number; taken as {default:g}, {len(rows)} in all"
+    return values[which], [note(message, source, int(atoms.number[rows[0]]))]
+
+
+def _names(atoms: Lines, first: int, last: int) -> Strings:
+    """Return a column of short names without the blanks around them; at most eight columns wide."""
+    codes, which = _distinct(atoms, (first, last))
+    return np.array([_text(code).strip() for code in codes])[which]
+
+
+def _distinct(atoms: Lines, *fields: tuple[int, int]) -> tuple[list[bytes], Ints]:
+    """Return the different texts of some columns, at most eight in all, and which of them each row has."""
+    octets = np.zeros((len(atoms.number), 8), np.uint8)
+    columns = np.concatenate([np.arange(first - 1, last) for first, last in fields])
+    octets[:, : len(columns)] = atoms.octet[:, columns]
+    codes, which = np.unique(octets.view(np.uint64).ravel(), return_inverse=True)
+    return [code.tobytes()[: len(columns)] for code in codes], which
+
+
+def _text(octets: bytes) -> str:
+    return octets.decode("latin-1")
+
+
+def _residues(texts: Strings) -> Strings:
+    """Return residue numbers with insertion code; numbers above 9999 run into column 27 or are hybrid-36."""
+    names, which = np.unique(texts, return_inverse=True)
+    return np.array([_residue(name) for name in names.tolist()])[which]
+
+
+def _residue(text: str) -> str:
+    """Return number and code without blanks between, hybrid-36 (Grosse-Kunstleve 2007: A000 is 10000) decoded."""
+    text = text.replace(" ", "")
+    match = _HYBRID_36.match(text)
+    if not match:
+        return text
+    digits, code = match.groups()
+    offset = 10**4 - 10 * 36**3 if digits[0].isupper() else 10**4 + 16 * 36**3
+    return f"{int(digits, 36) + offset}{code}"
+
+
+def _elements(atoms: Lines, source: str) -> tuple[Strings, list[str]]:
+    """Return symbols from columns 77-78 where they hold one, else from atom and residue name, and warnings.
+
+    Before 1996 these columns held part of an entry name and a serial number: digits there are no element.
+    """
+    codes, which = _distinct(atoms, (77, 78))
+    written = np.array([symbol_of(_text(code)) for code in codes])[which]
+    names, which = _distinct(atoms, (13, 16), (18, 21))
+    guessed = np.array([symbol_of_atom_name(_text(name[:4]), _text(name[4:])) for name in names])[which]
+    missing = written == ""
+    element = np.where(missing, guessed, written)
+    known, unknown = np.flatnonzero(missing & (guessed != UNKNOWN)), np.flatnonzero(element == UNKNOWN)
+    warnings = []
+    if len(known):
+        warnings.append(_guess_note("without element; taken from their names", known, atoms, source))
+    if len(unknown):
+        warnings.append(_guess_note("whose element is unknown", unknown, atoms, source))
+    return element, warnings
+
+
+def _guess_note(what: str, rows: Ints, atoms: Lines, source: str) -> str:
+    name = _text(atoms.octet[rows[0], 12:16].tobytes()).strip()
+    return note(f"{len(rows)} atoms {what}, the first is {name!r}", source, int(atoms.number[rows[0]]))
+
+
+# ---- what stands beside the atoms
+
+
+def _title(record: Texts, lines: Lines, source: str) -> str:
+    title = " ".join(text[10:80].strip() for _, text in lines.take(record == b"TITLE ").texts())
+    entry = "".join(text[62:66].strip() for _, text in lines.take(record == b"HEADER").texts())
+    return title or entry or PurePath(source.removesuffix(".gz")).stem
+
+
+def _connections(record: Texts, lines: Lines, source: str) -> list[str]:
+    """Return a warning where serial numbers of CONECT leave their five columns; bonds are not read from there."""
+    for line, text in lines.take(record == b"CONECT").texts():
+        if len(text) % 5 != 1 and re.search(r"\S{6,}", text[6:]):
+            return [note("CONECT with serial numbers run together is ignored", source, line)]
+    return []
+
+
+def _assemblies(remarks: Lines, source: str) -> Mapping[str, tuple[AssemblyPart, ...]]:
+    """Return the assemblies of REMARK 350: for each biomolecule, chains and BIOMT operators that apply to them."""
+    assemblies: dict[str, list[tuple[set[str], list[list[float]]]]] = {}
+    parts: list[tuple[set[str], list[list[float]]]] = []
+    for line, text in remarks.texts():
+        head, _, tail = text[10:].partition(":")
+        if head.strip() == "BIOMOLECULE":
+            parts = assemblies.setdefault(tail.strip(), [])
+        elif head.strip().startswith("APPLY THE FOLLOWING"):
+            parts.append((_chains(tail), []))
+        elif head.strip() == "AND CHAINS" and parts:
+            parts[-1][0].update(_chains(tail))
+        elif "BIOMT" in head and parts:
+            parts[-1][1].append(_operator_row(head.split(), source, line))
+    return {
+        name: tuple(AssemblyPart(frozenset(chains), _operators(rows, source)) for chains, rows in parts)
+        for name, parts in assemblies.items()
+        if parts
+    }
+
+
+def _chains(text: str) -> set[str]:
+    return {"" if name == "NULL" else name for name in text.replace(",", " ").split()}
+
+
+def _operator_row(words: list[str], source: str, line: int) -> list[float]:
+    if len(words) != 6 or not all(is_number(word.encode()) for word in words[2:]):
+        raise InputError("BIOMT without four numbers; expected a row of R and t", source, line)
+    return [float(word) for word in words[2:]]
+
+
+def _operators(rows: list[list[float]], source: str) -> Floats:
+    if len(rows) % 3:
+        raise InputError(f"{len(rows)} BIOMT rows; expected three to an operator", source)
+    return np.array(rows, dtype=float).reshape(-1, 3, 4)

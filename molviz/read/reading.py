@@ -1,0 +1,77 @@
+"""What a file held: its models and the assemblies that its own operators make of them."""
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from molviz.arrays import Floats, Ints, Strings
+from molviz.errors import InputError
+from molviz.model.molecule import Molecule
+
+
+class AssemblyPart(NamedTuple):
+    """Chains that are copied by the same operators ``x → R x + t``."""
+
+    chains: frozenset[str]  # as the file's operators call them; empty for all
+    operators: Floats  # (k, 3, 4), R in the first three columns, t in the last, ångström
+
+
+@dataclass(frozen=True)
+class Reading:
+    """Everything that one file held.
+
+    ``models`` are models or frames in the order of the file, less alternate locations. ``warnings`` read
+    ``FILE:LINE: what is odd``, one of a kind. ``operator_chain`` holds for every model the names (n,) by which the
+    operators of ``assemblies`` call the chains.
+    """
+
+    source: str
+    format: str
+    models: tuple[Molecule, ...]
+    assemblies: Mapping[str, tuple[AssemblyPart, ...]] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+    operator_chain: tuple[Strings, ...] = ()
+
+    def warned(self, warnings: list[str]) -> "Reading":
+        """Return the reading with more warnings, put first."""
+        return replace(self, warnings=(*warnings, *self.warnings))
+
+    def assembly(self, id: str, model: int = 0) -> Molecule:
+        """Return a biological assembly of one model: all its copies, the n-th copy of chain A named ``A-n``.
+
+        Raises InputError, naming the assemblies there are, where the file has no such operators.
+        """
+        if id not in self.assemblies:
+            known = ", ".join(self.assemblies) or "none"
+            raise InputError(f"no assembly {id!r}; the file has operators for: {known}", self.source)
+        molecule, chain = self.models[model], self.operator_chain[model]
+        copies: list[Molecule] = []
+        made: Counter[str] = Counter()
+        for part in self.assemblies[id]:
+            rows = np.flatnonzero(np.isin(chain, list(part.chains))) if part.chains else np.arange(len(molecule))
+            copies += _copies(molecule, rows, part, max((made[name] for name in part.chains), default=0))
+            made.update({name: len(part.operators) for name in part.chains})
+        if not sum(map(len, copies)):
+            raise InputError(f"assembly {id!r} is made of chains that are not in the file", self.source)
+        return _joined(copies)
+
+
+def _copies(molecule: Molecule, rows: Ints, part: AssemblyPart, made: int) -> list[Molecule]:
+    """Return one moved copy of the rows per operator, ``made`` copies of the same chains being there already."""
+    original = molecule.take(rows)
+    names, name_of_atom = np.unique(original.chain, return_inverse=True)
+    copies = []
+    for number, operator in enumerate(part.operators, start=made + 1):
+        chain = np.char.add(names, f"-{number}" if number > 1 else "")[name_of_atom] if len(rows) else original.chain
+        position = original.position @ operator[:, :3].T + operator[:, 3]
+        copies.append(replace(original, position=position, chain=chain))
+    return copies
+
+
+def _joined(molecules: list[Molecule]) -> Molecule:
+    columns = [column.name for column in fields(Molecule) if column.name != "name"]
+    joined = {name: np.concatenate([getattr(molecule, name) for molecule in molecules]) for name in columns}
+    return Molecule(name=molecules[0].name, **joined)

@@ -1,0 +1,166 @@
+"""XYZ and extended XYZ: one or many frames of a count, a comment, and that many atoms."""
+
+import re
+from pathlib import PurePath
+from typing import NamedTuple
+
+import numpy as np
+
+from molviz.arrays import Floats, Strings
+from molviz.errors import InputError
+from molviz.model.elements import UNKNOWN, symbol_of_label
+from molviz.model.molecule import Molecule
+from molviz.read.atoms import coinciding_note, coinciding_rows
+from molviz.read.numbers import is_number, numbers
+from molviz.read.reading import Reading
+from molviz.read.source import note
+
+_PROPERTIES = re.compile(rb"(?:^|\s)properties=(?:\"([^\"]*)\"|(\S+))", re.IGNORECASE)
+_TYPES = {b"S", b"R", b"I", b"L"}
+
+
+class Columns(NamedTuple):
+    """Where a row holds symbol and coordinates, and how many words it has at least."""
+
+    symbol: int
+    x: int
+    width: int
+
+
+class Frame(NamedTuple):
+    """The rows of one frame, split into words."""
+
+    line: int  # of the first atom, counted from one
+    comment: bytes
+    rows: list[list[bytes]]
+
+
+PLAIN = Columns(symbol=0, x=1, width=4)
+
+
+def read_xyz(data: bytes, source: str) -> Reading:
+    """Return the frames of an XYZ file; raises InputError where a count and the rows do not match."""
+    frames = _frames(data.split(b"\n"), source)
+    told: dict[str, str] = {}
+    molecules = tuple(_molecule(frame, source, told) for frame in frames)
+    extended = any(_PROPERTIES.search(frame.comment) for frame in frames)
+    return Reading(
+        source, "extxyz" if extended else "xyz", molecules, warnings=tuple(told.values()),
+        operator_chain=tuple(molecule.chain for molecule in molecules),
+    )  # fmt: skip
+
+
+def _frames(lines: list[bytes], source: str) -> list[Frame]:
+    frames, at = [], 0
+    while at < len(lines):
+        if not lines[at].strip():
+            at += 1
+            continue
+        count = _count(lines[at], source, at + 1)
+        frames.append(Frame(at + 3, lines[at + 1] if at + 1 < len(lines) else b"", _rows(lines, at, count, source)))
+        at += 2 + count
+    if not frames:
+        raise InputError("no atoms; expected a count, a comment and that many atoms", source)
+    return frames
+
+
+def _count(text: bytes, source: str, line: int) -> int:
+    try:
+        count = int(text)
+    except ValueError:
+        found = text.decode("latin-1").strip()[:40]
+        raise InputError(f"{found!r}; expected the number of atoms of a frame", source, line) from None
+    if count < 1:
+        raise InputError(f"the count is {count}; expected at least one atom", source, line)
+    return count
+
+
+def _rows(lines: list[bytes], at: int, count: int, source: str) -> list[list[bytes]]:
+    rows = [line.split() for line in lines[at + 2 : at + 2 + count]]
+    filled = next((k for k, row in enumerate(rows) if not row), len(rows))
+    if filled < count:
+        message = f"the count says {count} atoms, but only {filled} follow its comment; expected all of them"
+        if at + 1 < len(lines) and _is_atom(lines[at + 1].split()):
+            message += f" (line {at + 2}, where the comment stands, looks like an atom)"
+        raise InputError(message, source, at + 1)
+    return rows
+
+
+def _is_atom(row: list[bytes]) -> bool:
+    return len(row) >= PLAIN.width and all(is_number(word) for word in row[1:4])
+
+
+# ---- one frame
+
+
+def _molecule(frame: Frame, source: str, told: dict[str, str]) -> Molecule:
+    """Return the molecule of a frame; what is odd is told once of a kind."""
+    columns = _columns(frame, source, told)
+    short = next((k for k, row in enumerate(frame.rows) if len(row) < columns.width), None)
+    if short is not None:
+        found = len(frame.rows[short])
+        raise InputError(f"{found} words; expected a symbol and x y z", source, frame.line + short)
+    position = _positions(frame, columns, source)
+    label = [row[columns.symbol].decode("latin-1") for row in frame.rows]
+    element = _elements(label, frame.line, source, told)
+    again = coinciding_rows(position)
+    if len(again):
+        told.setdefault("coincide", coinciding_note(len(again), source, frame.line + int(again[0])))
+    name = PurePath(source.removesuffix(".gz")).stem
+    return Molecule.of(name, position, element, atom_name=np.array(label))
+
+
+def _positions(frame: Frame, columns: Columns, source: str) -> Floats:
+    words = [word for row in frame.rows for word in row[columns.x : columns.x + 3]]
+
+    def error(index: int, text: str) -> InputError:
+        message = f"{'xyz'[index % 3]} coordinate is {text!r}; expected a finite number"
+        return InputError(message, source, frame.line + index // 3)
+
+    return numbers(np.array(words), error).reshape(-1, 3)
+
+
+def _elements(labels: list[str], line: int, source: str, told: dict[str, str]) -> Strings:
+    symbols = {label: symbol_of_label(label) for label in set(labels)}
+    for row, label in enumerate(labels):
+        if symbols[label] == UNKNOWN:
+            told.setdefault("unknown", note(f"{label!r} is no element; its radius is guessed", source, line + row))
+            break
+    return np.array([symbols[label] for label in labels])
+
+
+# ---- the columns of extended XYZ
+
+
+def _columns(frame: Frame, source: str, told: dict[str, str]) -> Columns:
+    """Return the columns that ``Properties=`` states, or the plain ones where that is missing or wrong."""
+    match = _PROPERTIES.search(frame.comment)
+    if not match:
+        return PLAIN
+    columns = _stated(match[1] or match[2])
+    if columns is not None and _fits(columns, frame.rows):
+        return columns
+    told.setdefault(
+        "properties", note("Properties= does not fit the rows; read as symbol x y z", source, frame.line - 1)
+    )
+    return PLAIN
+
+
+def _stated(properties: bytes) -> Columns | None:
+    """Return the columns of ``name:type:repeat`` triples; ``species`` or ``Z`` and ``pos`` are needed."""
+    words = properties.split(b":")
+    start, place = 0, dict[bytes, int]()
+    for name, kind, repeat in zip(words[::3], words[1::3], words[2::3], strict=False):
+        if kind not in _TYPES or not repeat.isdigit() or repeat == b"0":
+            return None
+        place[name.lower()] = start
+        start += int(repeat)
+    symbol = place.get(b"species", place.get(b"z"))
+    if len(words) % 3 or symbol is None or b"pos" not in place:
+        return None
+    return Columns(symbol, place[b"pos"], start)
+
+
+def _fits(columns: Columns, rows: list[list[bytes]]) -> bool:
+    first = rows[0]
+    return len(first) >= columns.width and all(is_number(word) for word in first[columns.x : columns.x + 3])

@@ -1,0 +1,108 @@
+"""T-junctions: horizons are split where other visible curves pass under them."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from molviz.arrays import Floats, Ints
+from molviz.geometry.circles import Circles
+from molviz.geometry.intervals import TURN
+from molviz.geometry.rows import expand
+from molviz.model.spheres import Spheres
+from molviz.visibility.half_edges import Degenerate
+from molviz.visibility.named_arcs import TEE, WHOLE, NamedArcs, vertex_numbers
+from molviz.visibility.projection import Projection
+
+SNAP = 1e-9  # radians by which rounding may put a junction outside the arc it lies on
+
+
+class Edges(NamedTuple):
+    """Arcs of circles between numbered vertices."""
+
+    circle: Ints  # (k,)
+    start: Floats  # (k,) radians
+    sweep: Floats  # (k,) radians
+    origin: Ints  # (k,)
+    target: Ints  # (k,)
+
+
+class _Junctions(NamedTuple):
+    """Points at which arcs are to be split, by arc and offset from its start."""
+
+    arc: Ints
+    offset: Floats
+    vertex: Ints
+
+
+def split_at_junctions(
+    named: NamedArcs, circles: Circles, horizons: Circles, spheres: Spheres, projection: Projection
+) -> Edges:
+    """Return the arcs as edges of the map; raises ``Degenerate`` where a junction lies on no visible horizon."""
+    origin, target = vertex_numbers(named.origin, named.target)
+    tees = [
+        _junctions(named, circles, horizons, spheres, projection, name, vertex, fraction)
+        for name, vertex, fraction in ((named.origin, origin, 0.0), (named.target, target, 1.0))
+    ]
+    return _split(named, origin, target, _Junctions(*(np.concatenate(column) for column in zip(*tees, strict=True))))
+
+
+def _junctions(
+    named: NamedArcs,
+    circles: Circles,
+    horizons: Circles,
+    spheres: Spheres,
+    projection: Projection,
+    name: Ints,
+    vertex: Ints,
+    fraction: float,
+) -> _Junctions:
+    """Where the arcs that end in a TEE, at their starts (fraction 0) or ends (1), meet the horizon above them."""
+    rows = np.flatnonzero(name[:, 0] >> 1 == TEE)
+    above = name[rows, 2]
+    points = circles.at(named.circle[rows], named.start[rows] + fraction * named.sweep[rows])
+    angle = projection.horizon_angle(spheres, horizons, above, points)
+    arc, offset = _located(named, len(circles.first) - len(horizons.first) + above, angle)
+    return _Junctions(arc, offset, vertex[rows])
+
+
+def _located(named: NamedArcs, circle: Ints, angle: Floats) -> tuple[Ints, Floats]:
+    """The arc of each given circle on which the angle lies, and the offset from its start."""
+    begin, end = (np.searchsorted(named.circle, circle, side=side) for side in ("left", "right"))
+    row, arc = expand(begin, end)
+    offset = np.mod(angle[row] - named.start[arc], TURN)
+    sweep = named.sweep[arc]
+    outside = np.where(offset <= sweep, 0.0, np.minimum(offset - sweep, TURN - offset))
+    order = np.lexsort((-outside, row))
+    best = np.full(len(circle), -1)
+    best[row[order]] = order  # the last one written is the closest
+    if np.any(best < 0) or np.any(outside[best] > SNAP):
+        raise Degenerate
+    inside = np.where(outside[best] == 0, offset[best], np.where(offset[best] - sweep[best] < SNAP, sweep[best], 0.0))
+    return arc[best], inside
+
+
+def _split(named: NamedArcs, origin: Ints, target: Ints, tees: _Junctions) -> Edges:
+    """Cut every arc at its junctions; a whole circle begins and ends at its first one."""
+    count = len(origin)
+    first = np.full(count, np.inf)
+    np.minimum.at(first, tees.arc, tees.offset)
+    opened = (named.origin[:, 0] >> 1 == WHOLE) & np.isfinite(first)
+    first_vertex = target.copy()
+    at_first = tees.offset == first[tees.arc]
+    first_vertex[tees.arc[at_first]] = tees.vertex[at_first]
+    begins = np.flatnonzero(~opened)
+    end = np.where(opened, first + TURN, named.sweep)
+    arc = np.concatenate([begins, tees.arc, np.arange(count)])
+    offset = np.concatenate([np.zeros(len(begins)), tees.offset, end])
+    vertex = np.concatenate([origin[begins], tees.vertex, np.where(opened, first_vertex, target)])
+    place = np.repeat([0, 1, 2], [len(begins), len(tees.arc), count])
+    order = np.lexsort((offset, place, arc))
+    arc, offset, vertex = arc[order], offset[order], vertex[order]
+    piece = np.flatnonzero(arc[1:] == arc[:-1])
+    return Edges(
+        named.circle[arc[piece]],
+        named.start[arc[piece]] + offset[piece],
+        offset[piece + 1] - offset[piece],
+        vertex[piece],
+        vertex[piece + 1],
+    )

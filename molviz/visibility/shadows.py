@@ -1,0 +1,127 @@
+"""What spheres in front hide of horizons and creases: intervals of the curves inside their balls and shadows."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from molviz.arrays import Bools, Floats, Ints
+from molviz.geometry.circles import Circles
+from molviz.geometry.grid import Neighbours, neighbours
+from molviz.geometry.intervals import TURN, above
+from molviz.geometry.rows import blocks, expand
+from molviz.model.spheres import Spheres
+from molviz.visibility.conics import Harmonics, harmonics, roots
+from molviz.visibility.named_arcs import BALL, SHADOW, Hidden
+from molviz.visibility.projection import Linear, Projection
+
+BLOCK_ROWS = 1 << 16  # (curve, sphere) rows at a time, some forty columns each
+
+
+class Discs(NamedTuple):
+    """Circles about the images of curves or spheres on the page."""
+
+    center: Floats  # (m, 2)
+    radius: Floats  # (m,)
+
+
+def discs_of(circles: Circles, projection: Projection) -> Discs:
+    """Return a disc around the image of each circle, as small as its ellipse's major axis allows."""
+    everything = np.arange(len(circles.first))
+    angle = np.zeros(len(everything))
+    image = projection.page_arcs(circles, everything, angle, angle)
+    return Discs(image.c, image.major())
+
+
+def overlaps(discs: Discs) -> Neighbours:
+    """Return which discs overlap each disc."""
+    flat = np.column_stack([discs.center, np.zeros(len(discs.radius))])
+    return neighbours(Spheres(flat, discs.radius))
+
+
+def shadows_on_horizons(
+    spheres: Spheres, horizons: Circles, projection: Projection, near: Neighbours, first_curve: int
+) -> Hidden:
+    """Return what all spheres hide of the horizons, which are curves ``first_curve`` onwards.
+
+    A horizon leaves the interval under a nearer sphere (a T-junction) or inside a farther ball (a rim).
+    """
+    own = np.repeat(np.arange(len(near.start) - 1), np.diff(near.start))
+    other = near.item
+    margin = projection.horizon_margin(spheres, horizons, own, other)
+    middle, half = above(margin.a, margin.b, -margin.c)
+    nearness = projection.nearness(spheres)
+    rows = np.flatnonzero(half > 0)
+    own, other, middle, half = own[rows], other[rows], middle[rows], half[rows]
+    reason = np.where(nearness[other] > nearness[own], SHADOW, BALL)
+    return Hidden(first_curve + own, middle - half, 2 * half, reason, other, other)
+
+
+def shadows_on_creases(
+    spheres: Spheres, circles: Circles, projection: Projection, near: Neighbours, discs: Discs, circle: Ints
+) -> list[Hidden]:
+    """Return what the shadows of nearer spheres hide of the creases; curve c is the crease ``circle[c]``.
+
+    Only a sphere nearer than both spheres of a crease can hide what these leave of it: in a parallel view what they
+    leave lies above both centres, and a shadow lies below its sphere's.
+    """
+    own = circles.first[circle]
+    image = discs_of(circles.take(circle), projection)
+    nearness = projection.nearness(spheres)
+    nearest = np.maximum(nearness[own], nearness[circles.second[circle]])
+    found = []
+    for block in blocks(near.start[own + 1] - near.start[own], 8 * BLOCK_ROWS):
+        row, entry = expand(near.start[own[block]], near.start[own[block] + 1])
+        curve, sphere = row + block.start, near.item[entry]
+        rows = np.flatnonzero(nearness[sphere] > nearest[curve])
+        curve, sphere = curve[rows], sphere[rows]
+        apart = image.center[curve] - discs.center[sphere]
+        reach = image.radius[curve] + discs.radius[sphere]
+        rows = np.flatnonzero(np.einsum("ij,ij->i", apart, apart) < reach**2)
+        found += [
+            _shadow(spheres, circles, projection, circle, curve[part], sphere[part])
+            for part in np.array_split(rows, len(rows) // BLOCK_ROWS + 1)
+        ]
+    return found
+
+
+def _shadow(
+    spheres: Spheres, circles: Circles, projection: Projection, circle: Ints, curve: Ints, sphere: Ints
+) -> Hidden:
+    """The intervals of each curve inside the sphere's cone and beyond its plane, by their end points.
+
+    End points are the roots of the cone's function beyond the plane, and those of the plane's inside the cone; between
+    consecutive ones a curve is hidden or not as a whole, as its middle is.
+    """
+    cone = harmonics(projection.cone(spheres, circles, circle[curve], sphere))
+    plane = projection.plane_margin(spheres, circles, circle[curve], sphere)
+    ends = _ends(cone, plane)
+    ends.sort(axis=1)
+    sweep = np.roll(ends, -1, axis=1) - ends
+    last = np.arange(ends.shape[1]) == np.sum(~np.isnan(ends), axis=1)[:, None] - 1
+    sweep = np.where(last, ends[:, :1] + TURN - ends, sweep)
+    start, sweep = _without_ends(ends, sweep)
+    middle = start + sweep / 2
+    hidden = (cone.at(middle) < 0) & (plane.at(middle) > 0)
+    row, column = np.nonzero(hidden)
+    name = sphere[row]
+    reason = np.full(len(row), SHADOW)
+    return Hidden(curve[row], start[row, column], sweep[row, column], reason, name, name)
+
+
+def _ends(cone: Harmonics, plane: Linear) -> Floats:
+    """The end points (m, 6) in [0, 2π), NaN where there are fewer."""
+    crossing, exists = roots(cone)
+    middle, half = above(plane.a, plane.b, -plane.c)
+    sinking = np.stack([middle - half, middle + half], axis=1)
+    cuts = (half > 0) & (half < np.pi)
+    real = np.concatenate([exists & (plane.at(crossing) > 0), cuts[:, None] & (cone.at(sinking) < 0)], axis=1)
+    angle = np.mod(np.concatenate([crossing, sinking], axis=1), TURN)
+    return np.where(real, angle, np.nan)
+
+
+def _without_ends(start: Floats, sweep: Floats) -> tuple[Floats, Floats]:
+    """A curve without end points is one interval, all round."""
+    alone: Bools = np.isnan(start[:, 0])
+    start[alone, 0] = 0.0
+    sweep[alone, 0] = TURN
+    return start, sweep

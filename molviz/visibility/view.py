@@ -1,0 +1,65 @@
+"""Where the eye is: the rotation from a molecule's axes to the page's, and the distance of the eye."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from molviz.arrays import Floats
+from molviz.model.spheres import Spheres
+
+
+@dataclass(frozen=True)
+class View:
+    """Rows of ``rotation`` are the page's x, y, z in the molecule's axes; the eye looks down −z.
+
+    ``center`` is the point that lies in the middle of the view; ``distance`` that of the eye from it for a central
+    projection, in ångström, or None for a parallel one.
+    """
+
+    rotation: Floats  # (3, 3)
+    center: Floats  # (3,) ångström
+    distance: float | None = None
+
+    def rotated(self, axis: str, degrees: float) -> "View":
+        """Return the view after a right-handed turn of the molecule about the page's x, y or z."""
+        angle = np.radians(degrees)
+        turn = np.eye(3)
+        one, other = ((1, 2), (2, 0), (0, 1))["xyz".index(axis)]
+        turn[one, one] = turn[other, other] = np.cos(angle)
+        turn[other, one] = np.sin(angle)
+        turn[one, other] = -np.sin(angle)
+        return View(turn @ self.rotation, self.center, self.distance)
+
+    def of(self, spheres: Spheres) -> Spheres:
+        """Return the spheres in view coordinates, ``center`` at the origin."""
+        return Spheres((spheres.center - self.center) @ self.rotation.T, spheres.radius)
+
+
+def middle(spheres: Spheres) -> Floats:
+    """Return the middle of the bounding box of the balls (3,)."""
+    low = np.min(spheres.center - spheres.radius[:, None], axis=0)
+    high = np.max(spheres.center + spheres.radius[:, None], axis=0)
+    return np.asarray((low + high) / 2)
+
+
+def file_axes(spheres: Spheres, distance: float | None = None) -> View:
+    """Return the view along the file's own −z, x to the right."""
+    return View(np.eye(3), middle(spheres), distance)
+
+
+def principal_axes(spheres: Spheres, distance: float | None = None) -> View:
+    """Return the view with the longest principal axis of the centres across the page and the shortest towards the eye.
+
+    Signs, which the axes leave open, are chosen by the third moments, so that the same molecule looks the same however
+    it was turned; a right-handed frame in any case.
+    """
+    offset = spheres.center - spheres.center.mean(axis=0)
+    _, vectors = np.linalg.eigh(offset.T @ offset)
+    rotation = vectors.T[::-1].copy()
+    for axis in range(2):
+        along = offset @ rotation[axis]
+        skew = np.sum(along**3)
+        if skew < 0 or (skew == 0 and along[0] < 0):
+            rotation[axis] *= -1
+    rotation[2] = np.cross(rotation[0], rotation[1])
+    return View(rotation, middle(spheres), distance)

@@ -1,0 +1,127 @@
+"""PDF: arcs as cubic Béziers within a thousandth of a point, layers that a viewer can switch off."""
+
+from collections.abc import Iterator
+from io import BytesIO
+
+import numpy as np
+import pydyf
+
+from molviz.arrays import Bools
+from molviz.picture.arcs import Paths
+from molviz.picture.picture import Color, FillLayer, Layer, Picture
+from molviz.write.ellipse import (
+    bezier_handles,
+    bezier_pieces,
+    closed_loops,
+    in_equal_pieces,
+    on_axes,
+    starts_and_ends,
+    with_straight_pieces,
+)
+from molviz.write.text import Texts, clean, number, numbers
+
+PLACES = 3
+
+
+def write_pdf(picture: Picture) -> bytes:
+    """Return the picture as PDF 1.7, one page of its own size; no dates and no identifier."""
+    pdf, out = pydyf.PDF(), BytesIO()
+    pdf.info.update({"Title": pydyf.String(clean(picture.title)), "Producer": pydyf.String("molviz")})
+    groups = [pydyf.Dictionary({"Type": "/OCG", "Name": pydyf.String(clean(layer.name))}) for layer in picture.layers]
+    content = pydyf.Stream([line.encode() for line in page_lines(picture)], compress=True)
+    for part in [*groups, content]:
+        pdf.add_object(part)
+    references = pydyf.Array([group.reference for group in groups])
+    pdf.catalog["OCProperties"] = pydyf.Dictionary(
+        {"OCGs": references, "D": pydyf.Dictionary({"Order": references, "ON": references})}
+    )
+    properties = pydyf.Dictionary({f"L{k}": group.reference for k, group in enumerate(groups)})
+    pdf.add_page(page(pdf, picture, properties, content))
+    pdf.write(out)
+    return out.getvalue()
+
+
+def page(pdf: pydyf.PDF, picture: Picture, properties: pydyf.Dictionary, content: pydyf.Stream) -> pydyf.Dictionary:
+    """Return the page object."""
+    box = pydyf.Array([0, 0, number(picture.width, PLACES), number(picture.height, PLACES)])
+    resources = pydyf.Dictionary({"Properties": properties})
+    return pydyf.Dictionary(
+        {
+            "Type": "/Page", "Parent": pdf.pages.reference, "MediaBox": box,
+            "Resources": resources, "Contents": content.reference,
+        }
+    )  # fmt: skip
+
+
+def page_lines(picture: Picture) -> Iterator[str]:
+    """Yield the operators that paint the page."""
+    yield "1 J 1 j"
+    if picture.background is not None:
+        size = f"{number(picture.width, PLACES)} {number(picture.height, PLACES)}"
+        yield f"{color_text(picture.background)} rg 0 0 {size} re f"
+    for row, layer in enumerate(picture.layers):
+        yield f"/OC /L{row} BDC"
+        yield from layer_lines(layer)
+        yield "EMC"
+
+
+def color_text(color: Color) -> str:
+    """Return a colour as three numbers from 0 to 1, fine enough to come back as the same bytes."""
+    return " ".join(number(value / 255, 4) for value in color)
+
+
+def layer_lines(layer: Layer) -> Iterator[str]:
+    """Yield the operators of a layer."""
+    loops, bounds = loop_texts(layer.paths), layer.paths.shape_start.tolist()
+    shapes = ["\n".join(filter(None, loops[first:stop])) for first, stop in zip(bounds, bounds[1:], strict=False)]
+    if isinstance(layer, FillLayer):
+        yield f"{number(layer.spread, PLACES)} w"
+        yield from filled(layer, shapes)
+    else:
+        yield f"{number(layer.width, PLACES)} w {color_text(layer.color)} RG"
+        yield from (f"{shape} S" for shape in shapes if shape)
+
+
+def filled(layer: FillLayer, shapes: list[str]) -> Iterator[str]:
+    """Yield the filled shapes, with a colour where it changes."""
+    current = None
+    for shape, color in zip(shapes, layer.color, strict=True):
+        if color != current:
+            current, text = color, color_text(color)
+            yield f"{text} rg {text} RG" if layer.spread else f"{text} rg"
+        if shape:
+            yield f"{shape} {'B' if layer.spread else 'f'}"
+
+
+def loop_texts(paths: Paths) -> list[str]:
+    """Return the operators of each loop, empty where it has no arc."""
+    paths, straight = as_cubics(paths)
+    words, first, stop = arc_texts(paths, straight).tolist(), paths.loop_start[:-1], paths.loop_start[1:]
+    held = stop > first
+    rows = paths.arcs.take(first[held])
+    move = np.full(len(first), "", dtype=object)
+    move[held] = joined(numbers(rows.at(rows.start), PLACES)) + " m\n"
+    bodies = ["\n".join(words[a:b]) for a, b in zip(first.tolist(), stop.tolist(), strict=True)]
+    ends = np.where(closed_loops(paths), " h", "").tolist()
+    return [start + text + end if text else "" for start, text, end in zip(move.tolist(), bodies, ends, strict=True)]
+
+
+def as_cubics(paths: Paths) -> tuple[Paths, Bools]:
+    """Return the paths cut so that one cubic or one straight piece stands for each arc, and which are straight."""
+    paths, straight = with_straight_pieces(paths)
+    count = np.where(straight, 1, bezier_pieces(on_axes(paths.arcs).major, paths.arcs.sweep))
+    return in_equal_pieces(paths, count), np.repeat(straight, count)
+
+
+def arc_texts(paths: Paths, straight: Bools) -> Texts:
+    """Return the operator (k,) of each arc."""
+    end = starts_and_ends(paths)[1]
+    points = numbers(np.column_stack([*bezier_handles(paths.arcs), end]), PLACES)
+    return np.asarray(np.where(straight, joined(points[:, 4:]) + " l", joined(points) + " c"), dtype=object)
+
+
+def joined(words: Texts) -> Texts:
+    """Return the rows of words (k, m) as one text (k,) each."""
+    spaced = words.copy()
+    spaced[:, 1:] = " " + spaced[:, 1:]
+    return np.asarray(spaced.sum(axis=1), dtype=object)

@@ -1,0 +1,49 @@
+"""Numbers and names as text: short, and harmless whatever a file called its atoms."""
+
+import re
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from molviz.arrays import Floats, Ints
+
+Texts: TypeAlias = NDArray[np.object_]
+NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def number(value: float, places: int = 2) -> str:
+    """Return a number rounded to some places, without what may be left out: ``-0.50`` is ``-.5``."""
+    text = f"{value:.{places}f}"
+    text = text.rstrip("0").rstrip(".") if places else text
+    return re.sub(r"^(-?)0(?=\.)", r"\1", text) if text != "-0" else "0"
+
+
+def dictionary(values: Floats, places: int) -> tuple[Texts, Ints]:
+    """Return the different texts among rounded values, and which one (same shape as values) each value has."""
+    whole, index = np.unique(np.rint(values * 10.0**places).astype(np.int64), return_inverse=True)
+    words = np.empty(len(whole), dtype=object)
+    words[:] = [number(step, places) for step in (whole / 10**places).tolist()]
+    return words, index.reshape(values.shape)
+
+
+def numbers(values: Floats, places: int = 2) -> Texts:
+    """Return the texts of values of any shape, as ``number`` writes them."""
+    words, index = dictionary(values, places)
+    return words[index]
+
+
+def clean(text: str) -> str:
+    """Return a text in which characters that XML cannot hold became U+FFFD."""
+    return NOT_XML.sub("\ufffd", text)
+
+
+def ascii_line(text: str) -> str:
+    """Return a text on one line of printable ASCII, with ``?`` for every other character."""
+    return re.sub("[^ -~]", "?", " ".join(text.split()))
+
+
+def token(text: str) -> str:
+    """Return a text as an XML name that is safe as an id and as a CSS class."""
+    word = re.sub("[^A-Za-z0-9_.-]", "_", text)
+    return word if re.match("[A-Za-z_]", word) else f"_{word}"

@@ -1,0 +1,27 @@
+"""Scenes for tests of visibility, and their maps and pieces."""
+
+import numpy as np
+
+from molviz.geometry.boundary import union_boundary
+from molviz.geometry.general_position import general_position
+from molviz.model.spheres import Spheres
+from molviz.visibility.map import VisibilityMap, visibility_map
+from molviz.visibility.painter import Pieces, painter_pieces
+from molviz.visibility.projection import eye_coordinates, projection_of
+from molviz.visibility.view import View
+
+
+def map_of(spheres: Spheres, view: View) -> VisibilityMap:
+    """The map of all spheres, which are taken to be in general position."""
+    seen = eye_coordinates(spheres, view)
+    return visibility_map(union_boundary(spheres), seen, np.arange(len(spheres.radius)), view, projection_of(view))
+
+
+def pieces_of(spheres: Spheres, view: View) -> Pieces:
+    seen = eye_coordinates(spheres, view)
+    return painter_pieces(union_boundary(spheres), seen, np.arange(len(spheres.radius)), view, projection_of(view))
+
+
+def shaken(center: object, radius: object) -> Spheres:
+    """Spheres in special position, displaced as for a drawing."""
+    return general_position(Spheres(np.array(center, dtype=float), np.array(radius, dtype=float)))[0]
