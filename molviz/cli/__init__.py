@@ -2,7 +2,12 @@
 
 import click
 
+from molviz.cli.hidden_lines import hidden_lines
+
 
 @click.group()
 def main() -> None:
     """Exact vector drawings and exact numbers of molecules made of spheres."""
+
+
+main.add_command(hidden_lines)

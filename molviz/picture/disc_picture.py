@@ -6,7 +6,7 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.model.spheres import Spheres
-from molviz.picture.arcs import Paths, PlaneArcs
+from molviz.curves import Paths, PlaneArcs
 from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StrokeLayer
 from molviz.visibility.disc_grid import Square
 from molviz.visibility.disc_regions import DiscRegions

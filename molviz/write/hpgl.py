@@ -13,7 +13,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats
 from molviz.errors import InputError
-from molviz.picture.arcs import Paths, PlaneArcs
+from molviz.curves import Paths, PlaneArcs
 from molviz.picture.picture import Picture, StrokeLayer
 from molviz.write.pen_travel import drawing_order
 
@@ -80,7 +80,7 @@ def _strokes(paths: Paths) -> list[str]:
     """One line of commands for every loop, drawn from whichever end is nearer."""
     arcs, (first, last) = paths.arcs, (paths.loop_start[:-1], paths.loop_start[1:] - 1)
     begin, end = arcs.at(arcs.start), arcs.at(arcs.start + arcs.sweep)
-    forward, backward = _commands(arcs, begin, 1.0), _commands(arcs, end, -1.0)
+    forward, backward = _commands(arcs, 1.0), _commands(arcs, -1.0)
     lines = []
     for loop, reverse in drawing_order(begin[first], end[last]):
         rows = range(paths.loop_start[loop], paths.loop_start[loop + 1])
@@ -90,25 +90,28 @@ def _strokes(paths: Paths) -> list[str]:
     return lines
 
 
-def _commands(arcs: PlaneArcs, begin: Floats, direction: float) -> list[str]:
-    """What draws each arc from its begin: ``AA`` for circles, ``PA`` through chords for other ellipses."""
+def _commands(arcs: PlaneArcs, direction: float) -> list[str]:
+    """What draws each arc, the pen down at its begin (end, if the direction is negative).
+
+    Circles are drawn by ``AA`` about their centre, other ellipses by ``PA`` through chords.
+    """
     turn = np.sign(arcs.u[:, 0] * arcs.v[:, 1] - arcs.u[:, 1] * arcs.v[:, 0])
     sweep = np.degrees(arcs.sweep) * turn * direction
     center = np.rint(arcs.c).astype(int).tolist()
-    radius = np.hypot(*arcs.u.T)
-    step = _step(np.maximum(radius, np.hypot(*arcs.v.T)))
+    step = _step(arcs.major())
     chord = np.clip(np.degrees(step), 1.0, 5.0).astype(int)
     commands = [
         f"AA{x},{y},{_number(angle)},{size};"
         for (x, y), angle, size in zip(center, sweep.tolist(), chord.tolist(), strict=True)
     ]
-    for row in np.flatnonzero(~_circular(arcs, radius)).tolist():
+    for row in np.flatnonzero(~_circular(arcs)).tolist():
         commands[row] = _chords(arcs, row, float(step[row]), direction)
     return commands
 
 
-def _circular(arcs: PlaneArcs, radius: Floats) -> Bools:
-    size = radius**2
+def _circular(arcs: PlaneArcs) -> Bools:
+    """Tell which ellipses are circles: u ⊥ v and |u| = |v|."""
+    size = np.sum(arcs.u**2, axis=1)
     skew = np.abs(np.sum(arcs.u * arcs.v, axis=1)) + np.abs(np.sum(arcs.v**2, axis=1) - size)
     return np.asarray(skew <= ROUND * size)
 
