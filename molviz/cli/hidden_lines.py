@@ -9,7 +9,13 @@ import click
 from molviz.errors import InputError
 from molviz.picture.disc_picture import DiscLook
 from molviz.pipeline.hidden_discs import (
-    HiddenDiscs, lettered_discs, picture_of, random_discs, statistics_table, to_bytes, to_json,
+    HiddenDiscs,
+    lettered_discs,
+    picture_of,
+    random_discs,
+    statistics_table,
+    to_bytes,
+    to_json,
 )  # fmt: skip
 from molviz.pipeline.output import save
 

@@ -1,14 +1,14 @@
 """Visible arcs and regions of discs become a picture: one layer of fills, one of strokes, a shape a disc."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.model.spheres import Spheres
 from molviz.curves import Paths, PlaneArcs
+from molviz.model.spheres import Spheres
 from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StrokeLayer
-from molviz.visibility.disc_grid import Square
 from molviz.visibility.disc_regions import DiscRegions
 from molviz.visibility.discs import DiscArcs
 
@@ -18,7 +18,7 @@ SPREAD = 0.25  # points: closes the hairline between neighbouring fills
 
 @dataclass(frozen=True)
 class DiscLook:
-    """Lengths in points: width of the square, margin around it, line width (0 for no lines)."""
+    """Lengths in points: width of all discs together, margin around them, line width (0 for no lines)."""
 
     width: float = 432.0
     margin: float = 9.0
@@ -26,15 +26,25 @@ class DiscLook:
     color: Color = (0, 0, 0)
 
 
+class _Page(NamedTuple):
+    """Where the plane lies on the page: ``x → scale x + shift``."""
+
+    size: tuple[float, float]
+    scale: float
+    shift: Floats
+
+
 def disc_picture(
-    spheres: Spheres, square: Square, arcs: DiscArcs, regions: DiscRegions | None, look: DiscLook, title: str = ""
+    spheres: Spheres, arcs: DiscArcs, regions: DiscRegions | None, look: DiscLook, title: str = ""
 ) -> Picture:
-    """Return the square on a page with the visible arcs, over the visible regions if they are given."""
-    layers: list[Layer] = [] if regions is None else [_fills(spheres, square, regions, look)]
+    """Return a page as large as the scene with the visible arcs, over the visible regions if they are given."""
+    page = _page(spheres, look)
+    layers: list[Layer] = [] if regions is None else [_fills(spheres, page, regions)]
     if look.outline > 0:
-        layers.append(_strokes(spheres, square, arcs, look))
-    side = look.width + 2.0 * look.margin
-    return Picture(side, side, _box(spheres, square, look), layers, title=title)
+        layers.append(_strokes(spheres, page, arcs, look))
+    width, height = page.size
+    border = look.margin - look.outline / 2.0
+    return Picture(width, height, (border, border, width - border, height - border), layers, title=title)
 
 
 def whole_circles(count: int) -> DiscArcs:
@@ -43,16 +53,26 @@ def whole_circles(count: int) -> DiscArcs:
     return DiscArcs(np.arange(count), np.zeros(count), np.full(count, 2.0 * np.pi), nobody, nobody)
 
 
-def _strokes(spheres: Spheres, square: Square, arcs: DiscArcs, look: DiscLook) -> StrokeLayer:
+def _page(spheres: Spheres, look: DiscLook) -> _Page:
+    """The box of all discs is that of what is visible: nothing hides the outermost points but discs that share them."""
+    low = np.min(spheres.center[:, :2] - spheres.radius[:, None], axis=0)
+    high = np.max(spheres.center[:, :2] + spheres.radius[:, None], axis=0)
+    scale = look.width / float(high[0] - low[0])
+    height = scale * float(high[1] - low[1])
+    size = look.width + 2.0 * look.margin, height + 2.0 * look.margin
+    return _Page(size, scale, look.margin - scale * low)
+
+
+def _strokes(spheres: Spheres, page: _Page, arcs: DiscArcs, look: DiscLook) -> StrokeLayer:
     """A shape a disc, an open loop an arc."""
     discs, first = np.unique(arcs.circle, return_index=True)
-    curves = _plane_arcs(spheres, square, look, arcs.circle, arcs.start, arcs.sweep)
+    curves = _plane_arcs(spheres, page, arcs.circle, arcs.start, arcs.sweep)
     paths = Paths(curves, np.arange(len(arcs.circle) + 1), np.append(first, len(arcs.circle)))
     return StrokeLayer("visible arcs", paths, look.outline, look.color, _marks("arc", discs))
 
 
-def _fills(spheres: Spheres, square: Square, regions: DiscRegions, look: DiscLook) -> FillLayer:
-    curves = _plane_arcs(spheres, square, look, regions.circle, regions.start, regions.sweep)
+def _fills(spheres: Spheres, page: _Page, regions: DiscRegions) -> FillLayer:
+    curves = _plane_arcs(spheres, page, regions.circle, regions.start, regions.sweep)
     paths = Paths(curves, regions.loop_start, regions.region_start)
     colors = _ramp(spheres.center[:, 2])[regions.disc]
     return FillLayer(
@@ -60,34 +80,20 @@ def _fills(spheres: Spheres, square: Square, regions: DiscRegions, look: DiscLoo
     )
 
 
-def _plane_arcs(
-    spheres: Spheres, square: Square, look: DiscLook, circle: Ints, start: Floats, sweep: Floats
-) -> PlaneArcs:
-    """Arcs of perimeters on the page: the square's lower left corner at (margin, margin)."""
+def _plane_arcs(spheres: Spheres, page: _Page, circle: Ints, start: Floats, sweep: Floats) -> PlaneArcs:
+    """Arcs of perimeters on the page."""
     radius = spheres.radius[circle]
     zero = np.zeros(len(circle))
     u, v = np.column_stack([radius, zero]), np.column_stack([zero, radius])
-    scale = look.width / square.side
-    shift = look.margin - scale * np.array([square.x, square.y])
-    return PlaneArcs(spheres.center[circle, :2], u, v, start, sweep).moved(scale, shift)
+    return PlaneArcs(spheres.center[circle, :2], u, v, start, sweep).moved(page.scale, page.shift)
 
 
 def _ramp(z: Floats) -> Ints:
     """Colours (n, 3) from the nearest to the farthest disc."""
     depth = (z - z.min()) / max(float(np.ptp(z)), np.finfo(float).tiny)
-    return np.rint(np.array(NEAR) + depth[:, None] * (np.array(FAR) - np.array(NEAR))).astype(np.int64)
+    colors: Ints = np.rint(np.array(NEAR) + depth[:, None] * (np.array(FAR) - np.array(NEAR))).astype(np.int64)
+    return colors
 
 
 def _marks(kind: str, discs: Ints) -> list[Mark]:
     return [Mark(f"{kind}-{disc}") for disc in discs.tolist()]
-
-
-def _box(spheres: Spheres, square: Square, look: DiscLook) -> tuple[float, float, float, float]:
-    """The box of all discs is that of what is visible: nothing hides the outermost points but discs that share them."""
-    scale, corner = look.width / square.side, np.array([square.x, square.y])
-    low = np.min(spheres.center[:, :2] - spheres.radius[:, None], axis=0) - corner
-    high = np.max(spheres.center[:, :2] + spheres.radius[:, None], axis=0) - corner
-    reach = look.outline / 2.0
-    x0, y0 = (low * scale + look.margin - reach).tolist()
-    x1, y1 = (high * scale + look.margin + reach).tolist()
-    return x0, y0, x1, y1

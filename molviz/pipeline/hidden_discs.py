@@ -14,9 +14,16 @@ from molviz.model.spheres import Spheres
 from molviz.picture.disc_picture import DiscLook, disc_picture
 from molviz.picture.picture import Picture
 from molviz.visibility.disc_grid import (
-    UNIT_SQUARE, CellLists, Grid, Square, bounding_square, cell_lists, depth_complexity, franklin_count,
+    UNIT_SQUARE,
+    CellLists,
+    Grid,
+    Square,
+    bounding_square,
+    cell_lists,
+    depth_complexity,
+    franklin_count,
 )  # fmt: skip
-from molviz.visibility.disc_regions import DiscRegions, NotInGeneralPosition, displaced, visible_regions
+from molviz.visibility.disc_regions import DiscRegions, GeneralPositionError, displaced, visible_regions
 from molviz.visibility.discs import DiscArcs, Work, visible_arcs
 
 Statistics: TypeAlias = dict[str, int | float | dict[str, int]]
@@ -95,14 +102,14 @@ def regions_of(scene: HiddenDiscs) -> DiscRegions:
     """Return the visible regions; those of a copy displaced by far less than any line's width if arcs do not join."""
     try:
         return visible_regions(scene.spheres, scene.grid, scene.lists, scene.arcs)
-    except NotInGeneralPosition:
+    except GeneralPositionError:
         moved = hide_discs(displaced(scene.spheres), across=scene.grid.across)
         return visible_regions(moved.spheres, moved.grid, moved.lists, moved.arcs)
 
 
 def picture_of(scene: HiddenDiscs, look: DiscLook, fill: bool = False, title: str = "") -> Picture:
     """Return the scene's visible arcs on a page, over its visible regions if ``fill`` is wanted."""
-    return disc_picture(scene.spheres, scene.grid.square, scene.arcs, regions_of(scene) if fill else None, look, title)
+    return disc_picture(scene.spheres, scene.arcs, regions_of(scene) if fill else None, look, title)
 
 
 def to_bytes(picture: Picture, suffix: str, plotter: str = "", paper: str = "") -> bytes:

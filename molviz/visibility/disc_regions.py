@@ -23,7 +23,7 @@ from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, foremost, neare
 from molviz.visibility.discs import DiscArcs
 
 
-class NotInGeneralPosition(ArithmeticError):
+class GeneralPositionError(ArithmeticError):
     """Perimeters that coincide or meet three at a point leave arcs whose ends cannot be joined."""
 
 
@@ -69,7 +69,7 @@ def displaced(spheres: Spheres, share: float = 1e-7) -> Spheres:
 def visible_regions(spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscArcs) -> DiscRegions:
     """Return the visible regions of discs whose visible arcs are given.
 
-    Regions whose own perimeter is hidden are included (his Fig. 7). Raises ``NotInGeneralPosition`` where arcs do
+    Regions whose own perimeter is hidden are included (his Fig. 7). Raises ``GeneralPositionError`` where arcs do
     not join; a displaced copy of the discs then has the same regions to within the displacement.
     """
     junctions = _junctions(spheres, arcs)
@@ -94,7 +94,7 @@ def _junctions(spheres: Spheres, arcs: DiscArcs) -> _Junctions:
     host = _host(arcs, over, around)
     offset = np.mod(around - arcs.start[host], TURN)
     if np.any(arcs.circle[host] != over) or np.any(offset > arcs.sweep[host]):
-        raise NotInGeneralPosition
+        raise GeneralPositionError
     order = np.lexsort((offset, host))
     return _Junctions(host[order], offset[order], arc[order], at_end[order])
 
@@ -180,7 +180,7 @@ def _discs_of_loops(
     lowest = np.minimum.reduceat(np.where(forward, circle, NOBODY), loop_start[:-1])
     highest = np.maximum.reduceat(np.where(forward, circle, -1), loop_start[:-1])
     if np.any((highest >= 0) & (lowest != highest)):
-        raise NotInGeneralPosition
+        raise GeneralPositionError
     bare = np.flatnonzero(highest < 0)
     loop = np.repeat(np.arange(len(highest)), np.diff(loop_start))
     by_length = np.lexsort((spheres.radius[circle] * pieces.sweep[edge // 2], loop))

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.picture.arcs import Paths, PlaneArcs
+from molviz.curves import Paths, PlaneArcs
 
 THIN = 0.005  # points: an ellipse with a smaller half-axis cannot be told from a straight piece on any page
 BEZIER_ERROR = 1e-3  # points: how far a cubic may stray from its arc

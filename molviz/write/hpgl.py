@@ -4,6 +4,7 @@ A plotter has no fill and no line width: only stroke layers are drawn, each with
 """
 
 import math
+import sys
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -12,10 +13,15 @@ from typing import Any
 import numpy as np
 
 from molviz.arrays import Bools, Floats
-from molviz.errors import InputError
 from molviz.curves import Paths, PlaneArcs
+from molviz.errors import InputError
 from molviz.picture.picture import Picture, StrokeLayer
 from molviz.write.pen_travel import drawing_order
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 CHORD_ERROR = 0.5  # plotter units between a curve and its chords: no plotter resolves less
 ROUND = 1e-9  # relative difference of an ellipse's half-diameters that still counts as a circle
@@ -56,10 +62,6 @@ def write_hpgl(picture: Picture, device: Plotter | None = None) -> bytes:
 
 @cache
 def _table() -> dict[str, Any]:
-    try:
-        import tomllib
-    except ModuleNotFoundError:  # Python 3.10
-        import tomli as tomllib
     return tomllib.loads(resources.files("molviz.write").joinpath("plotters.toml").read_text(encoding="utf-8"))
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pydyf
 
 from molviz.arrays import Bools
-from molviz.picture.arcs import Paths
+from molviz.curves import Paths
 from molviz.picture.picture import Color, FillLayer, Layer, Picture
 from molviz.write.ellipse import (
     bezier_handles,

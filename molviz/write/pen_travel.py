@@ -8,6 +8,7 @@ import numpy as np
 from molviz.arrays import Floats
 
 ENDS_PER_CELL = 2.0
+TINY = 1e-9  # the side of a cell where all ends coincide
 
 
 def drawing_order(begin: Floats, end: Floats) -> Iterator[tuple[int, bool]]:
@@ -19,11 +20,10 @@ def drawing_order(begin: Floats, end: Floats) -> Iterator[tuple[int, bool]]:
     ends = np.concatenate([begin, end])
     left = set(range(len(begin)))
     pen = (0.0, 0.0)
-    grid = _EndGrid(ends, left)
-    size = len(left)
+    renew_at = len(left)
     while left:
-        if len(left) < size // 2:
-            grid, size = _EndGrid(ends, left), len(left)
+        if len(left) <= renew_at:
+            grid, renew_at = _EndGrid(ends, left), len(left) // 2
         found = grid.nearest(pen)
         stroke, reverse = found % len(begin), found >= len(begin)
         left.remove(stroke)
@@ -36,16 +36,14 @@ class _EndGrid:
     """The ends of the strokes that are left, by cell of a square grid."""
 
     def __init__(self, ends: Floats, left: set[int]) -> None:
-        count = len(ends) // 2
-        rows = np.fromiter(left, dtype=np.int64, count=len(left))
-        rows.sort()
-        rows = np.concatenate([rows, rows + count])
-        extent = float(np.max(np.ptp(ends, axis=0))) if len(ends) else 0.0
-        self.side = max(extent / math.sqrt(max(len(rows), 1) / ENDS_PER_CELL), 1e-9)
-        self.low: tuple[float, float] = tuple(ends.min(axis=0).tolist()) if len(ends) else (0.0, 0.0)
-        self.across = int(extent / self.side) + 1
-        self.place: dict[int, tuple[float, float]] = dict(zip(rows.tolist(), map(tuple, ends[rows].tolist()), strict=True))
-        self.count = count
+        strokes = np.sort(np.fromiter(left, dtype=np.int64, count=len(left)))
+        self.count = len(ends) // 2
+        rows = np.concatenate([strokes, strokes + self.count])
+        extent = float(np.max(np.ptp(ends[rows], axis=0)))
+        self.side = max(extent / math.sqrt(len(rows) / ENDS_PER_CELL), TINY)
+        self.low = (float(ends[rows, 0].min()), float(ends[rows, 1].min()))
+        self.across = int(extent / self.side)
+        self.place = {row: (x, y) for row, (x, y) in zip(rows.tolist(), ends[rows].tolist(), strict=True)}
         self.cells: dict[tuple[int, int], list[int]] = {}
         for row, place in self.place.items():
             self.cells.setdefault(self._cell(place), []).append(row)

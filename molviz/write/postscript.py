@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from molviz.arrays import Bools, Floats
-from molviz.picture.arcs import Paths, PlaneArcs
+from molviz.curves import Paths, PlaneArcs
 from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StrokeLayer
 from molviz.write.ellipse import THIN, closed_loops, on_axes, with_straight_pieces
 from molviz.write.text import Texts, ascii_line, number, numbers

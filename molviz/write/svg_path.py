@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats
-from molviz.picture.arcs import Paths, PlaneArcs
+from molviz.curves import Paths, PlaneArcs
 from molviz.write.ellipse import (
     AxisArcs,
     closed_loops,
