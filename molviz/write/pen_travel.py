@@ -59,7 +59,7 @@ class _EndGrid:
         """The end nearest to the pen; of equally near ones the lowest row."""
         best, best_row, ring = math.inf, -1, 0
         middle = self._clamped(self._cell(pen))
-        while best_row < 0 or (ring - 1) * self.side < best:
+        while ring <= self.across + 1 and (ring - 1) * self.side < best:
             for cell in _ring(middle, ring):
                 for row in self.cells.get(cell, ()):
                     gap = math.dist(pen, self.place[row])
