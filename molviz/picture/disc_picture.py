@@ -68,7 +68,7 @@ def _strokes(spheres: Spheres, page: _Page, arcs: DiscArcs, look: DiscLook) -> S
     discs, first = np.unique(arcs.circle, return_index=True)
     curves = _plane_arcs(spheres, page, arcs.circle, arcs.start, arcs.sweep)
     paths = Paths(curves, np.arange(len(arcs.circle) + 1), np.append(first, len(arcs.circle)))
-    return StrokeLayer("visible arcs", paths, look.outline, look.color, _marks("arc", discs))
+    return StrokeLayer("visible arcs", paths, look.outline, look.color, _marks("s", discs))
 
 
 def _fills(spheres: Spheres, page: _Page, regions: DiscRegions) -> FillLayer:
@@ -76,7 +76,7 @@ def _fills(spheres: Spheres, page: _Page, regions: DiscRegions) -> FillLayer:
     paths = Paths(curves, regions.loop_start, regions.region_start)
     colors = _ramp(spheres.center[:, 2])[regions.disc]
     return FillLayer(
-        "visible regions", paths, [tuple(color) for color in colors.tolist()], _marks("disc", regions.disc), SPREAD
+        "visible regions", paths, [tuple(color) for color in colors.tolist()], _marks("f", regions.disc), SPREAD
     )
 
 
@@ -96,4 +96,4 @@ def _ramp(z: Floats) -> Ints:
 
 
 def _marks(kind: str, discs: Ints) -> list[Mark]:
-    return [Mark(f"{kind}-{disc}") for disc in discs.tolist()]
+    return [Mark(f"{kind}{disc}") for disc in discs.tolist()]
