@@ -42,6 +42,7 @@ def timed(work: Callable[[], object], repeats: int = 1) -> float:
 
 
 def peers() -> None:
+    """Time and size of the file beside polygon differences and vpype's plug-in."""
     scene = random_scene(COUNT)
     folder = Path(tempfile.mkdtemp())
     result: dict[str, bytes] = {}
@@ -61,7 +62,9 @@ def peers() -> None:
 
 
 def compare(name: str, seconds: float, size: int, ours: float, our_size: int) -> None:
-    print(f"{name:<28}{seconds:9.2f} s {size:12,} bytes   {seconds / ours:7.1f} × the time, {size / our_size:5.1f} × the bytes")
+    """Print one peer's row."""
+    times, sizes = seconds / ours, size / our_size
+    print(f"{name:<28}{seconds:9.2f} s {size:12,} bytes   {times:7.1f} × the time, {sizes:5.1f} × the bytes")
 
 
 def shapely_lines(scene: Spheres) -> tuple[float, int]:
@@ -103,10 +106,12 @@ def occult_lines(scene: Spheres, folder: Path) -> tuple[float, int]:
 
 
 def hidden(count: int, depth: float) -> HiddenDiscs:
+    """A random scene without its hidden lines."""
     return hide_discs(random_scene(count, depth=depth, seed=0), UNIT_SQUARE)
 
 
 def scaling() -> None:
+    """Time against the number of spheres and against depth."""
     counts = [1000, 3000, 10_000, 30_000, 100_000, 300_000, 1_000_000, 3_000_000]
     seconds = []
     for count in counts:

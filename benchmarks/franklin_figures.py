@@ -34,7 +34,8 @@ def figures() -> dict[str, Picture]:
 
 
 def main() -> None:
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else "figures")
+    """Write every figure as SVG and PostScript."""
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out/figures")
     folder.mkdir(parents=True, exist_ok=True)
     for name, picture in figures().items():
         for suffix in (".svg", ".ps"):

@@ -30,6 +30,7 @@ SHARES = np.geomspace(0.15, 8.0, 16)  # L / R that are tried
 
 
 def seconds(scene: Spheres, across: int, repeats: int = 3) -> float:
+    """The shortest of some runs."""
     return min(hide_discs(scene, UNIT_SQUARE, across).seconds for _ in range(repeats))
 
 
@@ -41,6 +42,7 @@ def best(scene: Spheres, radius: float) -> tuple[float, float]:
 
 
 def table_1() -> None:
+    """The fastest grid at each depth, and its time."""
     print(f"Table 1. How time and optimal grid depend on depth (ours: {MORE} N spheres of R / {math.isqrt(MORE)})\n")
     print(f"{'':32}{'his':>24}{'ours':>27}")
     print(f"{'N':>8}{'R':>8}{'D':>8}{'L/R':>16}{'T':>8}{'Tn':>8}{'L/R':>11}{'T':>10}{'Tn':>10}")
@@ -55,6 +57,7 @@ def table_1() -> None:
 
 
 def table_2() -> None:
+    """Time with his grids."""
     print("\nTable 2. Time against N with depth fixed at 10\n")
     print(f"{'N':>8}{'R':>8}{'G':>6}{'his T':>10}{'ms a sphere':>13}{'our T':>12}{'ms a sphere':>13}")
     for count, radius, across, spent in TABLE_2:
@@ -66,6 +69,7 @@ def table_2() -> None:
 
 
 def table_3() -> None:
+    """Time with his grids, all spheres alike and shrinking to the back."""
     print("\nTable 3. Fixed and variable radius, N = 1000\n")
     print(f"{'':12}{'max R':>8}{'D':>8}{'L':>8}{'his T':>10}{'our T':>12}")
     for name, radius, shrink, cell, spent in TABLE_3:

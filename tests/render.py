@@ -1,6 +1,7 @@
 """Pictures as pixels, without anti-aliasing: every pixel is some exact colour of the picture."""
 
 import io
+import re
 import subprocess
 from shutil import which
 
@@ -19,14 +20,11 @@ def render_svg(svg: bytes, width: int) -> np.ndarray:
     """
     page_width, page_height = map(float, re.findall(rb'viewBox="0 0 (\S+) ([^"]+)"', svg)[0])
     height = round(width * page_height / page_width)
+    sized = re.sub(rb'height="[^"]*pt"', b'height="%d"' % height, svg, count=1)
+    sized = re.sub(rb'width="[^"]*pt"', b'width="%d"' % width, sized, count=1)
     crisp = "* { shape-rendering: crispEdges }"
     png = resvg_py.svg_to_bytes(
-        svg_string=svg.decode(),
-        width=width,
-        dpi=96,
-        skip_system_fonts=True,
-        style_sheet=crisp,
-        shape_rendering="crisp_edges",
+        svg_string=sized.decode(), skip_system_fonts=True, style_sheet=crisp, shape_rendering="crisp_edges"
     )
     return np.asarray(Image.open(io.BytesIO(png)).convert("RGBA"))
 

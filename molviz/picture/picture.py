@@ -50,7 +50,16 @@ class StrokeLayer:
     mark: Sequence[Mark] = ()  # empty, or one per shape
 
 
-Layer: TypeAlias = FillLayer | StrokeLayer
+@dataclass(frozen=True)
+class StackedLayer:
+    """Fills and strokes with equally many shapes, painted shape by shape: all of shape 0, then of shape 1 over it."""
+
+    name: str
+    fills: FillLayer
+    strokes: Sequence[StrokeLayer]
+
+
+Layer: TypeAlias = FillLayer | StrokeLayer | StackedLayer
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,1 @@
+"""Every stage in order: one module per thing a user can ask for."""

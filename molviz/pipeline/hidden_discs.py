@@ -49,6 +49,10 @@ class HiddenDiscs:
     work: Work
     seconds: float
 
+    def visible(self) -> int:
+        """Return the number of spheres with some of their perimeter visible."""
+        return len(np.unique(self.arcs.circle))
+
     def statistics(self) -> Statistics:
         """Return the statistics by name, in the order of his Fig. 8."""
         count = len(self.spheres.radius)
@@ -123,6 +127,13 @@ def to_bytes(picture: Picture, suffix: str, plotter: str = "", paper: str = "") 
     if suffix not in write.WRITERS:
         raise InputError(f"no format is called {suffix!r}, expected .json or one of {', '.join(write.WRITERS)}")
     return write.write(picture, suffix)
+
+
+def drawn(scene: HiddenDiscs, suffix: str, look: DiscLook, fill: bool, plotter: str = "", paper: str = "") -> bytes:
+    """Return the scene as a file of the format that a suffix names."""
+    if suffix == ".json":
+        return to_json(scene)
+    return to_bytes(picture_of(scene, look, fill), suffix, plotter, paper)
 
 
 def to_json(scene: HiddenDiscs) -> bytes:

@@ -37,6 +37,8 @@ READERS = {  # suffix → name of the format
     ".extxyz": "extxyz",
     ".xyzr": "xyzr",
 }
+_SCANNED = 65536  # bytes in which the first line that says something is looked for
+_PDB_ATOM = re.compile(rb"^(ATOM  |HETATM)[ \d]{5}", re.MULTILINE)
 _NUMBER = rb"[+-]?[\d.]+(?:[eE][+-]?\d+)?"
 _SIGNS = {  # what the first line that says something looks like
     "mmcif": re.compile(rb"data_", re.IGNORECASE),
@@ -68,8 +70,8 @@ def read(source: str, data: bytes | None = None, format: str | None = None) -> R
 
 
 def _recognised(text: bytes) -> str | None:
-    """Return the format that the first lines show, or None."""
-    for line in text[:4096].split(b"\n"):
-        if line.strip() and not line.startswith(b"#"):
-            return next((name for name, sign in _SIGNS.items() if sign.match(line)), None)
-    return None
+    """Return the format that the first line shows, that of any line with an atom of a PDB file, or None."""
+    said = (line for line in text[:_SCANNED].split(b"\n") if line.strip() and not line.startswith(b"#"))
+    first = next(said, b"")
+    shown = next((name for name, sign in _SIGNS.items() if sign.match(first)), None)
+    return shown or ("pdb" if _PDB_ATOM.search(text) else None)

@@ -80,9 +80,9 @@ def _molecule(table: AtomTable, first: int, last: int, name: str) -> Molecule:
 def _best_locations(table: AtomTable) -> Bools:
     """Return which rows stay (n,): of alternate locations the highest occupancy, the first on a tie.
 
-    Where residues of different names share one place (a point mutation), the name with the highest occupancy stays
-    and the atoms of the others go, so that no residue is mixed of two. An atom has alternate locations when its
-    rows carry different location letters; rows of one letter repeated are no alternates and stay.
+    Where the locations of one residue have different residue names (a point mutation), the name of the highest
+    occupancy stays and the located atoms of the others go, so that no side chain is mixed of two. An atom has
+    alternate locations when its rows carry different location letters; rows of one letter repeated all stay.
     """
     kept = np.ones(len(table.model), dtype=bool)
     if not (table.alternate != "").any():
@@ -101,12 +101,11 @@ def _best_locations(table: AtomTable) -> Bools:
 
 
 def _one_residue_name(table: AtomTable, rows: list[int]) -> list[int]:
-    """Return the rows of the residue name with the highest occupancy, if the names are alternates."""
+    """Return the rows without location letter and, of those with one, the rows of the residue name that stays."""
     names, letters = table.residue_name, table.alternate
-    if len({names[row] for row in rows}) == 1 or any(letters[row] == "" for row in rows):
-        return rows
-    best = names[max(rows, key=lambda row: table.occupancy[row])]
-    return [row for row in rows if names[row] == best]
+    lettered = [row for row in rows if letters[row] != ""]
+    best = names[max(lettered, key=lambda row: table.occupancy[row])]
+    return [row for row in rows if letters[row] == "" or names[row] == best]
 
 
 def _one_location_each(table: AtomTable, rows: list[int]) -> list[int]:

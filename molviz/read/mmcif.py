@@ -19,13 +19,14 @@ from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of_atom_name, symbol_of_label
 from molviz.model.molecule import Molecule
 from molviz.read.atoms import AtomTable, coinciding_note, coinciding_rows, models_of
-from molviz.read.numbers import Texts, is_number, numbers
+from molviz.read.numbers import Texts, number_of, numbers
 from molviz.read.reading import AssemblyPart, Reading
 from molviz.read.source import note
 
 _AXES = ("x", "y", "z")
 _CARTESIAN = tuple(f"_atom_site.Cartn_{axis}" for axis in _AXES)
 _FRACTIONAL = tuple(f"_atom_site_fract_{axis}" for axis in _AXES)
+_OPERATORS = ("_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz")
 _UNCERTAINTY = re.compile(rb"\(\d+\)$")  # 1.234(5): standard uncertainty in the last digits
 _TOKEN = re.compile(r"""'.*?'(?=\s|$)|".*?"(?=\s|$)|\#.*|\S+""")
 _POSITION = re.compile(r"^[^:]*:(\d+):\S* *")
@@ -63,8 +64,8 @@ def _document(text: str, lines: list[str], source: str) -> cif.Document:
         reason = str(error)[match.end() :] if match else str(error)
         if line and reason.startswith("Wrong number of values"):
             reason, line = _incomplete_loop(lines, line, reason)
-        elif line and lines[line - 1].startswith(";"):
-            reason = "the text field that opens here is not closed"
+        elif line and (lines[line - 1].startswith(";") or reason.startswith("unterminated text")):
+            reason, line = _open_text(lines, line)
         raise InputError(f"{reason}; expected correct CIF", source, line) from error
 
 
@@ -73,6 +74,12 @@ def _incomplete_loop(lines: list[str], start: int, reason: str) -> tuple[str, in
     tags = sum(1 for _ in itertools.takewhile(lambda line: line.lstrip().startswith("_"), lines[start:]))
     where = list(_lines_of_values(lines, start))
     return f"{reason} ({len(where)} for the {tags} tags from line {start})", where[-1] if where else start
+
+
+def _open_text(lines: list[str], end: int) -> tuple[str, int]:
+    """Return a reason, and the line where the text field opens that has no proper end at the given line."""
+    marks = [number for number, text in enumerate(lines[: end - 1], start=1) if text.startswith(";")]
+    return f"the text field that opens here is not closed (syntax breaks at line {end})", marks[-1] if marks else end
 
 
 def _lines_of_values(lines: list[str], start: int) -> Iterator[int]:
@@ -135,9 +142,10 @@ class Site:
         """Return a column of numbers, the default for ``.`` and ``?``, and a warning where one is something else."""
         values = list(self.block.find_values(tag)) or ["."] * len(self)
         octets = {value: _UNCERTAINTY.sub(b"", value.encode()) for value in set(values)}
-        known = {value: float(octet) if is_number(octet) else default for value, octet in octets.items()}
-        wrong = {value for value in octets if value not in (".", "?") and not is_number(octets[value])}
-        column = np.array([known[value] for value in values])
+        known = {value: number_of(octet) for value, octet in octets.items()}
+        wrong = {value for value, number in known.items() if value not in (".", "?") and number is None}
+        column = np.array([known[value] for value in values], dtype=float)
+        column[np.isnan(column)] = default
         if not wrong:
             return column, []
         row = next(row for row, value in enumerate(values) if value in wrong)
@@ -152,7 +160,7 @@ class Site:
     def _line_of_row(self) -> list[int]:
         column = next(column for tag in (*_CARTESIAN, *_FRACTIONAL) if (column := self.block.find_values(tag)))
         loop = column.get_loop()
-        item = self.block.find_loop_item(column.tag)
+        item = self.block.find_loop_item(column.tag.lower())  # compared in lower case
         if loop is None or item is None:
             return []
         return list(_lines_of_values(self.lines, item.line_number))[:: loop.width()]
@@ -264,10 +272,9 @@ def _operators(site: Site) -> dict[str, Floats]:
     cells = [f"matrix[{i}][{j}]" if j < 4 else f"vector[{i}]" for i in (1, 2, 3) for j in (1, 2, 3, 4)]
     operators = {}
     for row in site.block.find("_pdbx_struct_oper_list.", ["id", *cells]):
-        values = [row.str(column) for column in range(1, 13)]
-        if all(is_number(value.encode()) for value in values):
-            top = np.array(values, dtype=float).reshape(3, 4)
-            operators[row.str(0)] = np.vstack([top, [0, 0, 0, 1]])
+        values = np.array([number_of(row.str(column).encode()) for column in range(1, 13)], dtype=float)
+        if not np.isnan(values).any():
+            operators[row.str(0)] = np.vstack([values.reshape(3, 4), [0, 0, 0, 1]])
     return operators
 
 
@@ -284,9 +291,16 @@ def _product(factors: list[Floats]) -> Floats:
 
 def _unit_cell(site: Site) -> Reading:
     """Return all atoms of one unit cell, fractional coordinates in [0, 1)."""
-    site.coordinates(_FRACTIONAL)
-    small = gemmi.make_small_structure_from_block(site.block)
+    listed = site.coordinates(_FRACTIONAL)
+    try:
+        small = gemmi.make_small_structure_from_block(site.block)
+    except (ValueError, RuntimeError) as error:
+        raise InputError(f"{error}; expected a unit cell and symmetry operators", site.source) from error
     _check_cell(small.cell, site.source)
+    if len(small.sites) != len(listed):
+        raise InputError(f"{len(listed)} sites, {len(small.sites)} with label; expected _atom_site_label", site.source)
+    for atom, coordinates in zip(small.sites, listed.tolist(), strict=True):
+        atom.fract = gemmi.Fractional(*coordinates)  # as checked here, not as the parser took them
     sites = small.get_all_unit_cell_sites()
     fraction = np.array([atom.fract.tolist() for atom in sites])
     fraction -= np.floor(fraction + 1e-6)  # operators in double precision leave 0 as −1e−17
@@ -296,9 +310,15 @@ def _unit_cell(site: Site) -> Reading:
     molecule = Molecule.of(_name(site), position, element, atom_name=label)
     again = coinciding_rows(position)
     warnings = [coinciding_note(len(again), site.source, None)] if len(again) else []
-    if small.spacegroup is None:
-        warnings.append(note("no space group known; only the listed atoms are drawn", site.source))
+    if not small.cell.images and not _states_no_symmetry(site, small.spacegroup_hm):
+        warnings.append(note("no symmetry that is understood; only the listed sites are drawn", site.source))
     return Reading(site.source, "mmcif", (molecule,), {}, tuple(warnings), (molecule.chain,))
+
+
+def _states_no_symmetry(site: Site, space_group: str) -> bool:
+    """Tell whether the file says that the listed sites are the whole cell."""
+    operators = [text for tag in _OPERATORS for text in site.block.find_values(tag)]
+    return bool(operators) or space_group.replace(" ", "") == "P1"
 
 
 def _check_cell(cell: gemmi.UnitCell, source: str) -> None:

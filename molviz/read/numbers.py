@@ -31,9 +31,17 @@ def numbers(texts: Texts, error: Callable[[int, str], InputError]) -> Floats:
     raise error(row, texts[row].decode("latin-1"))
 
 
+def number_of(text: bytes) -> float | None:
+    """Return the finite decimal number that the text is, None where it is none."""
+    if not _NUMBER.fullmatch(text):
+        return None
+    number = float(re.sub(rb"[dD]", b"e", text))
+    return number if abs(number) < np.inf else None
+
+
 def is_number(text: bytes) -> bool:
     """Tell whether the text is a finite decimal number."""
-    return bool(_NUMBER.fullmatch(text)) and abs(float(re.sub(rb"[dD]", b"e", text))) < np.inf
+    return number_of(text) is not None
 
 
 def _converted(texts: "np.ndarray[Any, np.dtype[np.bytes_]]") -> Floats | None:

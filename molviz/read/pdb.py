@@ -15,7 +15,7 @@ from molviz.arrays import Bools, Floats, Ints, Strings
 from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_atom_name
 from molviz.read.atoms import AtomTable, models_of
-from molviz.read.numbers import Texts, is_number, numbers
+from molviz.read.numbers import Texts, number_of, numbers
 from molviz.read.reading import AssemblyPart, Reading
 from molviz.read.source import note
 
@@ -152,9 +152,9 @@ def _positions(atoms: Lines, source: str) -> Floats:
 def _optional(atoms: Lines, what: str, first: int, last: int, default: float, source: str) -> tuple[Floats, list[str]]:
     """Return a column that may be blank, and a warning where it is neither blank nor a number."""
     texts, which = np.unique(atoms.field(first, last), return_inverse=True)
-    readable = np.array([is_number(text) for text in texts.tolist()])
-    values = np.full(len(texts), default)
-    values[readable] = texts[readable].astype(float)
+    values = np.array([number_of(text) for text in texts.tolist()], dtype=float)
+    readable = ~np.isnan(values)
+    values[~readable] = default
     wrong = ~readable & (np.char.strip(texts) != b"")
     rows = np.flatnonzero(wrong[which])
     if not len(rows):
@@ -237,13 +237,17 @@ def _title(record: Texts, lines: Lines, source: str) -> str:
 def _connections(record: Texts, lines: Lines, source: str) -> list[str]:
     """Return a warning where serial numbers of CONECT leave their five columns; bonds are not read from there."""
     for line, text in lines.take(record == b"CONECT").texts():
-        if len(text) % 5 != 1 and re.search(r"\S{6,}", text[6:]):
+        serials = text[6:31].rstrip()
+        if len(serials) % 5 and re.search(r"\S{6,}", serials):
             return [note("CONECT with serial numbers run together is ignored", source, line)]
     return []
 
 
 def _assemblies(remarks: Lines, source: str) -> Mapping[str, tuple[AssemblyPart, ...]]:
-    """Return the assemblies of REMARK 350: for each biomolecule, chains and BIOMT operators that apply to them."""
+    """Return the assemblies of REMARK 350: for each biomolecule, chains and BIOMT operators that apply to them.
+
+    Raises InputError where a BIOMT row is no row of numbers, or the rows are not three to an operator.
+    """
     assemblies: dict[str, list[tuple[set[str], list[list[float]]]]] = {}
     parts: list[tuple[set[str], list[list[float]]]] = []
     for line, text in remarks.texts():
@@ -268,9 +272,11 @@ def _chains(text: str) -> set[str]:
 
 
 def _operator_row(words: list[str], source: str, line: int) -> list[float]:
-    if len(words) != 6 or not all(is_number(word.encode()) for word in words[2:]):
+    values = [number_of(word.encode()) for word in words[2:]]
+    row = [value for value in values if value is not None]
+    if len(words) != 6 or len(row) != 4:
         raise InputError("BIOMT without four numbers; expected a row of R and t", source, line)
-    return [float(word) for word in words[2:]]
+    return row
 
 
 def _operators(rows: list[list[float]], source: str) -> Floats:

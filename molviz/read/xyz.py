@@ -8,7 +8,7 @@ import numpy as np
 
 from molviz.arrays import Floats, Strings
 from molviz.errors import InputError
-from molviz.model.elements import UNKNOWN, symbol_of_label
+from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_label
 from molviz.model.molecule import Molecule
 from molviz.read.atoms import coinciding_note, coinciding_rows
 from molviz.read.numbers import is_number, numbers
@@ -16,6 +16,7 @@ from molviz.read.reading import Reading
 from molviz.read.source import note
 
 _PROPERTIES = re.compile(rb"(?:^|\s)properties=(?:\"([^\"]*)\"|(\S+))", re.IGNORECASE)
+_COUNT = re.compile(rb"\s*[+-]?\d{1,18}\s*")
 _TYPES = {b"S", b"R", b"I", b"L"}
 
 
@@ -65,11 +66,10 @@ def _frames(lines: list[bytes], source: str) -> list[Frame]:
 
 
 def _count(text: bytes, source: str, line: int) -> int:
-    try:
-        count = int(text)
-    except ValueError:
+    if not _COUNT.fullmatch(text):
         found = text.decode("latin-1").strip()[:40]
-        raise InputError(f"{found!r}; expected the number of atoms of a frame", source, line) from None
+        raise InputError(f"{found!r}; expected the number of atoms of a frame", source, line)
+    count = int(text)
     if count < 1:
         raise InputError(f"the count is {count}; expected at least one atom", source, line)
     return count
@@ -122,11 +122,19 @@ def _positions(frame: Frame, columns: Columns, source: str) -> Floats:
 
 def _elements(labels: list[str], line: int, source: str, told: dict[str, str]) -> Strings:
     symbols = {label: symbol_of_label(label) for label in set(labels)}
-    for row, label in enumerate(labels):
-        if symbols[label] == UNKNOWN:
-            told.setdefault("unknown", note(f"{label!r} is no element; its radius is guessed", source, line + row))
-            break
+    unknown = {label for label in symbols if symbols[label] == UNKNOWN}
+    decorated = {label for label in symbols if not symbol_of(label) and not label.isdigit()} - unknown
+    _tell("whose element is unknown", unknown, labels, line, source, told)
+    _tell("whose element is taken from the leading letters", decorated, labels, line, source, told)
     return np.array([symbols[label] for label in labels])
+
+
+def _tell(what: str, odd: set[str], labels: list[str], line: int, source: str, told: dict[str, str]) -> None:
+    """Add a warning about the atoms with the odd labels, unless one of that kind is there already."""
+    rows = [row for row, label in enumerate(labels) if label in odd] if odd else []
+    if rows:
+        message = f"{len(rows)} atoms {what}, the first is {labels[rows[0]]!r}"
+        told.setdefault(what, note(message, source, line + rows[0]))
 
 
 # ---- the columns of extended XYZ

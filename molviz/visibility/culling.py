@@ -46,7 +46,7 @@ def possibly_visible(spheres: Spheres, projection: Projection) -> Bools:
 
 def _cells(spheres: Spheres, projection: Projection) -> _Cells:
     """A grid by Franklin's formula for deep scenes, ``L = R (0.6 − 0.078 ln D)`` with depth D."""
-    outline = _outlines(spheres, projection)
+    outline = outlines(spheres, projection)
     center, half = outline
     low, high = (center - half).min(axis=0), (center + half).max(axis=0)
     radius = float(np.median(half))
@@ -58,8 +58,8 @@ def _cells(spheres: Spheres, projection: Projection) -> _Cells:
     return _Cells(low, side, int(last.max()) + 1, first, last)
 
 
-def _outlines(spheres: Spheres, projection: Projection) -> tuple[Floats, Floats]:
-    """Centre and half-extent (n, 2) of the bounding box of each sphere's image."""
+def outlines(spheres: Spheres, projection: Projection) -> tuple[Floats, Floats]:
+    """Return centre and half-extent (n, 2) of the bounding box of each sphere's image."""
     count = len(spheres.radius)
     angle = np.zeros(count)
     arcs = projection.page_arcs(projection.horizons(spheres), np.arange(count), angle, angle)

@@ -27,6 +27,9 @@ class Pieces(NamedTuple):
 
     order: Ints  # (s,) spheres with a piece, back to front
     arcs: PlaneArcs  # (k,)
+    circle: Ints  # (k,) the circle each arc belongs to, numbered anyhow
+    origin: Ints  # (k,) vertex numbers
+    target: Ints  # (k,)
     is_crease: Bools  # (k,)
     loops: Loops  # by sphere; face is the sphere
 
@@ -84,4 +87,4 @@ def _pieces(seen: Spheres, circles: Circles, arcs: NamedArcs, owner: Ints, proje
     plane = projection.page_arcs(circles, arcs.circle, arcs.start, arcs.sweep)
     spheres = np.unique(label)
     order = spheres[np.argsort(projection.nearness(seen)[spheres], kind="stable")]
-    return Pieces(order, plane, is_crease, loops(face, following))
+    return Pieces(order, plane, arcs.circle, origin, target, is_crease, loops(face, following))

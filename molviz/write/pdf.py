@@ -8,7 +8,7 @@ import pydyf
 
 from molviz.arrays import Bools
 from molviz.curves import Paths
-from molviz.picture.picture import Color, FillLayer, Layer, Picture
+from molviz.picture.picture import Color, FillLayer, Layer, Picture, StackedLayer, StrokeLayer
 from molviz.write.ellipse import (
     bezier_handles,
     bezier_pieces,
@@ -72,14 +72,35 @@ def color_text(color: Color) -> str:
 
 def layer_lines(layer: Layer) -> Iterator[str]:
     """Yield the operators of a layer."""
-    loops, bounds = loop_texts(layer.paths), layer.paths.shape_start.tolist()
-    shapes = ["\n".join(filter(None, loops[first:stop])) for first, stop in zip(bounds, bounds[1:], strict=False)]
-    if isinstance(layer, FillLayer):
+    if isinstance(layer, StackedLayer):
+        yield from stacked(layer)
+    elif isinstance(layer, FillLayer):
         yield f"{number(layer.spread, PLACES)} w"
-        yield from filled(layer, shapes)
+        yield from filled(layer, shape_texts(layer.paths))
     else:
-        yield f"{number(layer.width, PLACES)} w {color_text(layer.color)} RG"
-        yield from (f"{shape} S" for shape in shapes if shape)
+        yield pen(layer)
+        yield from (f"{shape} S" for shape in shape_texts(layer.paths) if shape)
+
+
+def pen(layer: StrokeLayer) -> str:
+    """Return the operators that set width and colour of the lines of a layer."""
+    return f"{number(layer.width, PLACES)} w {color_text(layer.color)} RG"
+
+
+def stacked(layer: StackedLayer) -> Iterator[str]:
+    """Yield the operators of a stacked layer, shape by shape: its fill, then its strokes over that."""
+    fills, paint = shape_texts(layer.fills.paths), "B" if layer.fills.spread else "f"
+    strokes = [(pen(one), shape_texts(one.paths)) for one in layer.strokes]
+    for row, (fill, color) in enumerate(zip(fills, layer.fills.color, strict=True)):
+        text = color_text(color)
+        yield f"{number(layer.fills.spread, PLACES)} w {text} rg {text} RG {fill} {paint}"
+        yield from (f"{command} {shapes[row]} S" for command, shapes in strokes if shapes[row])
+
+
+def shape_texts(paths: Paths) -> list[str]:
+    """Return the operators of the loops of each shape."""
+    loops, bounds = loop_texts(paths), paths.shape_start.tolist()
+    return ["\n".join(filter(None, loops[first:stop])) for first, stop in zip(bounds, bounds[1:], strict=False)]
 
 
 def filled(layer: FillLayer, shapes: list[str]) -> Iterator[str]:

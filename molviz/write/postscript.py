@@ -7,7 +7,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats
 from molviz.curves import Paths, PlaneArcs
-from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StrokeLayer
+from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StackedLayer, StrokeLayer
 from molviz.write.ellipse import THIN, closed_loops, on_axes, with_straight_pieces
 from molviz.write.text import Texts, ascii_line, number, numbers
 
@@ -84,34 +84,58 @@ def color_text(color: Color) -> str:
 
 def layer_lines(layer: Layer) -> Iterator[str]:
     """Yield the lines of a layer: per shape its title, its colour where it changes, its path."""
-    if isinstance(layer, StrokeLayer):
-        yield f"{number(layer.width, 3)} w {color_text(layer.color)}"
+    if isinstance(layer, StackedLayer):
+        yield from stacked(layer)
+    elif isinstance(layer, StrokeLayer):
+        yield pen(layer)
         yield from stroked(layer)
     else:
         yield f"{number(layer.spread, 3)} w"
         yield from filled(layer)
 
 
+def pen(layer: StrokeLayer) -> str:
+    """Return the commands that set width and colour of the lines of a layer."""
+    return f"{number(layer.width, 3)} w {color_text(layer.color)}"
+
+
+def stacked(layer: StackedLayer) -> Iterator[str]:
+    """Yield the lines of a stacked layer, shape by shape: its fill, then its strokes over that."""
+    fills, paint = layer.fills, f"{number(layer.fills.spread, 3)} w b" if layer.fills.spread else "f"
+    fill_loops = shape_texts(fills.paths, True)
+    strokes = [(pen(one), shape_texts(one.paths, False)) for one in layer.strokes]
+    for shape, loops in enumerate(fill_loops):
+        yield from title_line(fills.mark[shape])
+        yield color_text(fills.color[shape])
+        yield from (*loops, paint)
+        for command, texts in strokes:
+            if texts[shape]:
+                yield from (command, *(f"{loop} s" for loop in texts[shape]))
+
+
+def shape_texts(paths: Paths, filled: bool) -> list[list[str]]:
+    """Return the commands of the loops of each shape."""
+    loops, bounds = loop_texts(paths, filled), paths.shape_start.tolist()
+    return [list(filter(None, loops[first:stop])) for first, stop in zip(bounds, bounds[1:], strict=False)]
+
+
 def stroked(layer: StrokeLayer) -> Iterator[str]:
     """Yield the lines of a stroke layer; every loop is stroked by itself, as old interpreters hold short paths only."""
-    loops, bounds = loop_texts(layer.paths, False), layer.paths.shape_start.tolist()
-    for shape, (first, stop) in enumerate(zip(bounds, bounds[1:], strict=False)):
+    for shape, loops in enumerate(shape_texts(layer.paths, False)):
         if layer.mark:
             yield from title_line(layer.mark[shape])
-        yield from (f"{loop} s" for loop in loops[first:stop] if loop)
+        yield from (f"{loop} s" for loop in loops)
 
 
 def filled(layer: FillLayer) -> Iterator[str]:
     """Yield the lines of a fill layer."""
-    loops, bounds = loop_texts(layer.paths, True), layer.paths.shape_start.tolist()
     paint, current = "b" if layer.spread else "f", None
-    for shape, (first, stop) in enumerate(zip(bounds, bounds[1:], strict=False)):
+    for shape, loops in enumerate(shape_texts(layer.paths, True)):
         yield from title_line(layer.mark[shape])
         if layer.color[shape] != current:
             current = layer.color[shape]
             yield color_text(current)
-        yield from (loop for loop in loops[first:stop] if loop)
-        yield paint
+        yield from (*loops, paint)
 
 
 def title_line(mark: Mark) -> list[str]:

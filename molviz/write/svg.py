@@ -2,20 +2,20 @@
 
 import gzip
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from itertools import repeat
+from collections.abc import Sequence
 from typing import Any
 
 from svgwrite import Drawing
-from svgwrite.container import Group
+from svgwrite.container import Group, Style
 from svgwrite.path import Path
 from svgwrite.shapes import Rect
 
-from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StrokeLayer
+from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StackedLayer, StrokeLayer
 from molviz.write.svg_path import path_data
 from molviz.write.text import clean, number, token
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
+OFTEN = 4  # shapes of one colour from which on a class is shorter than the colour itself
 
 
 def write_svg(picture: Picture) -> bytes:
@@ -29,6 +29,8 @@ def write_svg(picture: Picture) -> bytes:
     elements = Elements(drawing)
     for layer in picture.layers:
         drawing.add(elements.layer(layer, picture.height))
+    if elements.rules:
+        drawing.defs.add(Style("".join(f".{name}{{{rule}}}" for rule, name in elements.rules.items())))
     return f'<?xml version="1.0" encoding="utf-8"?>\n{drawing.tostring()}\n'.encode()
 
 
@@ -49,6 +51,7 @@ class Elements:
     def __init__(self, drawing: Drawing) -> None:
         self.drawing = drawing
         self.taken: Counter[str] = Counter()
+        self.rules: dict[str, str] = {}  # style rule → name of the class that stands for it
 
     def fresh_id(self, wish: str) -> str:
         """Return a valid id like ``wish`` that this drawing does not have yet."""
@@ -60,39 +63,73 @@ class Elements:
         """Return the group of a layer, which Inkscape takes for a layer of its own."""
         group = self.group(layer.name)
         group["inkscape:groupmode"], group["inkscape:label"] = "layer", clean(layer.name)
-        data = path_data(layer.paths, height)
-        if isinstance(layer, FillLayer):
-            usual = Counter(layer.color).most_common(1)[0][0] if layer.color else None
-            group.update(fill_attributes(usual, layer.spread) | spread_attributes(layer.spread))
-            own = ({} if color == usual else fill_attributes(color, layer.spread) for color in layer.color)
-            self.fill(group, data, layer.mark, own)
-        else:
+        if isinstance(layer, StrokeLayer):
             group.update(stroke_attributes(layer))
-            self.fill(group, data, layer.mark, repeat({}))
+            self.lines(group, path_data(layer.paths, height), layer.mark)
+        elif isinstance(layer, FillLayer):
+            group.update(spread_attributes(layer.spread))
+            self.regions(group, path_data(layer.paths, height), layer)
+        else:
+            group.update(spread_attributes(layer.fills.spread))
+            self.stacks(group, layer, height)
         return group
+
+    def lines(self, layer: Group, data: Sequence[str], marks: Sequence[Mark]) -> None:
+        """Add stroked shapes; without marks all of them are one path."""
+        if not marks:
+            layer.add(Path("".join(data), factory=self.drawing))
+        nest = Nest(self, layer)
+        for d, mark in zip(data, marks, strict=False):
+            if d:
+                nest.enter(mark.groups).add(self.named(Path(d, factory=self.drawing), mark, ()))
+
+    def regions(self, layer: Group, data: Sequence[str], fills: FillLayer) -> None:
+        """Add filled shapes in their groups."""
+        nest, looks = Nest(self, layer), self.looks(fills)
+        for d, mark, color in zip(data, fills.mark, fills.color, strict=True):
+            if d:
+                name, attributes = looks[color]
+                path = Path(d, factory=self.drawing, **attributes)
+                nest.enter(mark.groups).add(self.named(path, mark, name))
+
+    def stacks(self, layer: Group, stacked: StackedLayer, height: float) -> None:
+        """Add one group per shape: its fill, and its strokes over that."""
+        fills, looks = path_data(stacked.fills.paths, height), self.looks(stacked.fills)
+        strokes = [(self.rule(stroke_rule(one)), path_data(one.paths, height)) for one in stacked.strokes]
+        for row, (mark, color) in enumerate(zip(stacked.fills.mark, stacked.fills.color, strict=True)):
+            name, attributes = looks[color]
+            group = self.named(Group(factory=self.drawing, **attributes), mark, name)
+            group.add(Path(fills[row], factory=self.drawing))
+            for stroke, data in strokes:
+                if data[row]:
+                    group.add(Path(data[row], class_=stroke, factory=self.drawing))
+            layer.add(group)
+
+    def looks(self, fills: FillLayer) -> dict[Color, tuple[tuple[str, ...], dict[str, str]]]:
+        """Return classes and attributes that give a shape each colour: a class for those that come often."""
+        found: dict[Color, tuple[tuple[str, ...], dict[str, str]]] = {}
+        for color, times in Counter(fills.color).items():
+            look = fill_attributes(color, fills.spread)
+            rule = ";".join(f"{name}:{value}" for name, value in look.items())
+            found[color] = ((self.rule(rule),), {}) if times >= OFTEN else ((), look)
+        return found
+
+    def rule(self, text: str) -> str:
+        """Return the class with that style rule."""
+        return self.rules.setdefault(text, f"s{len(self.rules)}")
 
     def group(self, name: str, **attributes: str) -> Group:
         """Return an empty group with an id like ``name``."""
         return Group(id=self.fresh_id(name), factory=self.drawing, **attributes)
 
-    def fill(self, layer: Group, data: Sequence[str], marks: Sequence[Mark], own: Iterator[dict[str, str]]) -> None:
-        """Add the shapes to the layer's group; without marks all of them are one path."""
-        if not marks:
-            layer.add(Path("".join(data), factory=self.drawing))
-            return
-        nest = Nest(self, layer)
-        for d, mark, attributes in zip(data, marks, own, strict=False):
-            if d:
-                nest.enter(mark.groups).add(self.shape(d, mark, attributes))
-
-    def shape(self, d: str, mark: Mark, attributes: dict[str, str]) -> Path:
-        """Return the element of one shape."""
-        path = Path(d, id=self.fresh_id(mark.id), factory=self.drawing, **attributes)
-        if mark.classes:
-            path["class"] = " ".join(map(token, mark.classes))
+    def named(self, element: Any, mark: Mark, more: tuple[str, ...]) -> Any:
+        """Return the element with the mark's id, classes and title, and ``more`` classes."""
+        element["id"] = self.fresh_id(mark.id)
+        if mark.classes or more:
+            element["class"] = " ".join([*map(token, mark.classes), *more])
         if mark.title:
-            path.set_desc(clean(mark.title))
-        return path
+            element.set_desc(clean(mark.title))
+        return element
 
 
 class Nest:
@@ -116,10 +153,8 @@ class Nest:
         return self.open[-1]
 
 
-def fill_attributes(color: Color | None, spread: float) -> dict[str, str]:
+def fill_attributes(color: Color, spread: float) -> dict[str, str]:
     """Return how a filled shape looks; the stroke of the spread has the fill's colour."""
-    if color is None:
-        return {}
     fill = hexadecimal(color)
     return {"fill": fill, "stroke": fill} if spread else {"fill": fill}
 
@@ -129,9 +164,14 @@ def spread_attributes(spread: float) -> dict[str, str]:
     return {"stroke-width": number(spread, 3), "stroke-linejoin": "round"} if spread else {}
 
 
-def stroke_attributes(layer: StrokeLayer) -> dict[str, Any]:
+def stroke_attributes(layer: StrokeLayer) -> dict[str, str]:
     """Return how the lines of a layer look."""
     return {
         "fill": "none", "stroke": hexadecimal(layer.color), "stroke-width": number(layer.width, 3),
         "stroke-linecap": "round", "stroke-linejoin": "round",
     }  # fmt: skip
+
+
+def stroke_rule(layer: StrokeLayer) -> str:
+    """Return the same as a style rule."""
+    return ";".join(f"{name}:{value}" for name, value in stroke_attributes(layer).items())

@@ -118,25 +118,41 @@ def _two_columns(path: Path) -> dict[str, Any]:
 
 
 def _table(content: Mapping[str, Any], title: str, name: str) -> RadiiTable:
-    elements = {_symbol(text, name): _radius(value, text, name) for text, value in content.get("elements", {}).items()}
-    types = {text: _radius(value, text, name) for text, value in content.get("types", {}).items()}
-    atoms = _atoms(content.get("residues", {}), types, name)
+    elements = {
+        _symbol(text, name): _radius(value, text, name) for text, value in _section(content, "elements", name).items()
+    }
+    types = {text: _radius(value, text, name) for text, value in _section(content, "types", name).items()}
+    atoms = _atoms(_section(content, "residues", name), types, name)
+    source = str(content.get("source", name))
+    if "completed_by" in content:
+        rest = _completing(content["completed_by"], name)
+        elements, source = {**rest.elements, **elements}, f"{source}; completed by {rest.source}"
     if not elements and not atoms:
         raise InputError("the radii table is empty; expected [elements]", name)
-    source = content.get("source", name)
-    if "completed_by" in content:
-        rest = load_table(content["completed_by"])
-        elements, source = {**rest.elements, **elements}, f"{source}; completed by {rest.source}"
     return RadiiTable(title, source, elements, atoms, bool(content.get("implicit_hydrogens", False)))
+
+
+def _completing(table: object, name: str) -> RadiiTable:
+    if table not in TABLES:
+        raise InputError(f"completed_by is {table!r}; expected one of {', '.join(TABLES)}", name)
+    return load_table(str(table))
+
+
+def _section(content: Mapping[str, Any], key: str, name: str, title: str = "") -> Mapping[str, Any]:
+    """Return a table of the file, empty where it is missing."""
+    section = content.get(key, {})
+    if not isinstance(section, Mapping):
+        raise InputError(f"{title}{key} is {section!r}; expected a table of names and values", name)
+    return section
 
 
 def _atoms(residues: Mapping[str, Any], types: Mapping[str, float], name: str) -> dict[tuple[str, str], float]:
     atoms = {}
-    for residue, names_of_type in residues.items():
-        for kind, names in names_of_type.items():
+    for residue in residues:
+        for kind, names in _section(residues, residue, name, "residue ").items():
             if kind not in types:
                 raise InputError(f"residue {residue} has atoms of type {kind}; expected one of [types]", name)
-            atoms.update({(residue, atom): types[kind] for atom in names.split()})
+            atoms.update({(residue, atom): types[kind] for atom in str(names).split()})
     return atoms
 
 
@@ -149,7 +165,7 @@ def _symbol(text: str, name: str) -> str:
 
 def _radius(value: object, what: str, name: str, line: int | None = None) -> float:
     try:
-        radius = float(value)  # type: ignore[arg-type]
+        radius = np.nan if isinstance(value, bool) else float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         radius = np.nan
     if not 0 < radius < np.inf:

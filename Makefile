@@ -1,0 +1,63 @@
+# molviz: one line of help per target; `make` alone shows them.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+MOLVIZ := $(BIN)/molviz
+SAMPLES := $(wildcard samples/*.pdb samples/*.pdb.gz samples/*.cif samples/*.cif.gz samples/*.xyz samples/*.extxyz samples/*.xyzr)
+STEMS := $(basename $(notdir $(SAMPLES:.gz=)))
+PICTURES := $(foreach stem,$(STEMS),pictures/$(stem).svg pictures/$(stem).ps)
+DRAW_OPTIONS ?=
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test check pictures bench tables figures clean
+
+help: ## show this help
+	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
+
+$(VENV)/installed: pyproject.toml ## (environment with molviz installed)
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --editable .
+	touch $@
+
+$(VENV)/developed: $(VENV)/installed
+	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	touch $@
+
+$(VENV)/benched: $(VENV)/developed
+	$(BIN)/python -m pip install --quiet --editable '.[bench]'
+	touch $@
+
+demo: $(VENV)/installed ## make the environment, install, draw the samples into out/
+	$(MOLVIZ) draw $(SAMPLES) -o out/ --to svg
+	$(MOLVIZ) draw $(SAMPLES) -o out/ --to ps
+	@echo "Pictures are in out/; open out/caffeine.svg."
+
+test: $(VENV)/developed ## run all tests
+	$(BIN)/python -m pytest -n auto
+
+check: $(VENV)/developed ## linter, formatter's rules and type checker
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+pictures: $(PICTURES) ## draw every sample to SVG and PS, only what changed (make -j2 pictures)
+
+define picture_rules
+pictures/$(basename $(notdir $(1:.gz=))).svg pictures/$(basename $(notdir $(1:.gz=))).ps: $(1) $(VENV)/installed
+	$(MOLVIZ) draw $(1) -o $$@ $(DRAW_OPTIONS)
+endef
+$(foreach sample,$(SAMPLES),$(eval $(call picture_rules,$(sample))))
+
+bench: $(VENV)/benched ## measure run times, sizes and peers (nothing is asserted)
+	$(BIN)/python benchmarks/draw_bench.py
+	$(BIN)/python benchmarks/franklin_bench.py
+	$(BIN)/python benchmarks/measure_bench.py
+
+tables: $(VENV)/installed ## Franklin's Tables 1 to 3 beside ours
+	$(BIN)/python benchmarks/franklin_tables.py
+
+figures: $(VENV)/installed ## Franklin's Figs 1 to 5, before and after hidden line removal, into out/figures
+	$(BIN)/python benchmarks/franklin_figures.py
+
+clean: ## remove pictures and caches
+	rm -rf out pictures .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -1,0 +1,125 @@
+"""``molviz draw``: pictures of molecules."""
+
+import time
+from pathlib import PurePath
+from typing import Any
+
+import click
+
+from molviz.cli.batch import for_each
+from molviz.cli.options import (
+    applied,
+    eye_options,
+    input_options,
+    load_and_warn,
+    page_options,
+    wanted_from,
+)
+from molviz.cli.progress import Progress
+from molviz.errors import InputError
+from molviz.picture.coloring import SCHEMES
+from molviz.picture.compose import Look
+from molviz.picture.page import Page
+from molviz.picture.style import STYLES, load_style
+from molviz.pipeline.draw import Drawing, Eye, draw, suffixes
+from molviz.pipeline.inputs import Wanted
+from molviz.pipeline.outputs import save, target_of
+
+STAGES = 4  # reading, map, picture, writing
+
+output_options = applied(
+    click.option("-o", "--output", metavar="FILE", help="Its suffix is the format; many: a folder or {stem}."),
+    click.option("--to", metavar="FORMAT", help="Format (svg, ps, …) where the output is - or a folder."),
+    click.option("--method", type=click.Choice(["visible", "painter"]), default="visible", show_default=True),
+    click.option("--check", is_flag=True, help="Verify the invariants of the visibility map first."),
+)
+
+
+@click.command("draw")
+@click.argument("inputs", nargs=-1, required=True, metavar="INPUT...")
+@output_options
+@click.option("--style", default="default", show_default=True, metavar="NAME|FILE.toml", help=f"One of {STYLES}.")
+@click.option("--color-by", type=click.Choice(list(SCHEMES)), default="element", show_default=True)
+@click.option("--fill", type=click.Choice(["flat", "none"]), default="flat", show_default=True)
+@eye_options
+@page_options
+@input_options
+def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
+    """Draw molecules as exact vector pictures.
+
+    \b
+    Examples:
+      molviz draw caffeine.xyz -o caffeine.svg
+      molviz draw 4hhb.pdb --color-by chain --no-water -o 4hhb.ps
+      molviz draw *.cif -o 'pictures/{stem}.pdf'
+    """
+    run_drawings(inputs, options)
+
+
+def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
+    """Draw every input with the options of ``draw``."""
+    wanted, look, eye = wanted_from(options), look_from(options), eye_from(options)
+    suffix = _suffix(options["output"], options["to"])
+    output = options["output"] or "-"
+    if len(inputs) > 1 and len({target_of(source, output, suffix) for source in inputs}) < len(inputs):
+        raise click.UsageError("several inputs need several outputs: -o FOLDER/ or -o 'FOLDER/{stem}.svg'")
+
+    def one(source: str) -> None:
+        _draw_one(source, target_of(source, output, suffix), suffix, wanted, look, eye, options)
+
+    for_each(inputs, one)
+
+
+def _draw_one(
+    source: str, target: str, suffix: str, wanted: Wanted, look: Look, eye: Eye, options: dict[str, Any]
+) -> None:
+    began, progress = time.monotonic(), Progress(STAGES)
+    progress("reading")
+    loaded = load_and_warn(source, wanted, options["quiet"], options["strict"])
+    if len(loaded) > 1:
+        raise InputError(f"has {len(loaded)} models, and a picture shows one; expected --model NUMBER", source)
+    try:
+        drawing = draw(loaded[0], suffix, look, eye, options["method"], options["check"], progress)
+    finally:
+        progress.close()
+    save(target, drawing.data)
+    if not options["quiet"]:
+        click.echo(_summary(source, target, drawing, time.monotonic() - began), err=True)
+
+
+def _summary(source: str, target: str, drawing: Drawing, seconds: float) -> str:
+    return (
+        f"{source} -> {target}: {drawing.atoms} atoms read, {drawing.visible} visible, {drawing.arcs} arcs, "
+        f"{len(drawing.data)} bytes, {seconds:.2f} s"
+    )
+
+
+def _suffix(output: str | None, to: str | None) -> str:
+    """The format asked for: by --to, else by the output's suffix."""
+    known = suffixes()
+    suffix = f".{to.removeprefix('.')}" if to else PurePath(output or "").suffix
+    if suffix.lower() in known:
+        return suffix.lower()
+    names = " ".join(known)
+    if not output and not to:
+        raise click.UsageError(f"nowhere to draw to; expected -o FILE with one of the suffixes {names}")
+    raise click.UsageError(f"no format {suffix!r}; expected one of {names} (with --to where the output has none)")
+
+
+def look_from(options: dict[str, Any]) -> Look:
+    """Take the look out of a command's keyword arguments."""
+    page = Page(options["page"], options["width"], options["scale"], options["margin"])
+    return Look(
+        style=load_style(options["style"]),
+        color_by=options["color_by"],
+        fill=options["fill"],
+        outline=options["outline"],
+        crease=options["crease"],
+        background=options["background"],
+        page=page,
+    )
+
+
+def eye_from(options: dict[str, Any]) -> Eye:
+    """Take the view out of a command's keyword arguments."""
+    return Eye(options["orient"], options["rotate"], options["perspective"])

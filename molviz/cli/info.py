@@ -1,0 +1,54 @@
+"""``molviz info``: what was read."""
+
+import json
+from typing import Any
+
+import click
+
+from molviz.cli.batch import for_each
+from molviz.cli.options import input_options, load_and_warn, wanted_from
+from molviz.pipeline.info import info
+
+
+@click.command("info")
+@click.argument("inputs", nargs=-1, required=True, metavar="INPUT...")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object on standard output.")
+@input_options
+def info_command(inputs: tuple[str, ...], as_json: bool, **options: Any) -> None:
+    """Tell what was read, and whether the hard sphere model holds.
+
+    k is the ratio of the largest to the smallest radius, rho the least distance of two centres in units of the
+    radius; with small k and large rho few spheres meet any one of them, and all of molviz runs in linear time.
+
+    \b
+    Example:
+      molviz info 4hhb.pdb --json
+    """
+    wanted = wanted_from(options)
+    results: list[dict[str, Any]] = []
+
+    def one(source: str) -> None:
+        found = [info(loaded) for loaded in load_and_warn(source, wanted, options["quiet"], options["strict"])]
+        results.extend(found)
+        if not as_json:
+            click.echo("\n\n".join(map(_as_text, found)))
+
+    try:
+        for_each(inputs, one)
+    finally:
+        if as_json:
+            click.echo(json.dumps({"results": results}, ensure_ascii=False))
+
+
+def _as_text(result: dict[str, Any]) -> str:
+    elements = ", ".join(f"{symbol} {count}" for symbol, count in result["elements"].items())
+    rho = "no spheres meet" if result["rho"] is None else f"{result['rho']:.3f}"
+    rows = [
+        (result["file"], f"{result['format']}, model {result['model']} of {result['models']}: {result['title']}"),
+        ("atoms", f"{result['atoms']} ({elements})"),
+        ("k", f"{result['k']:.3f}"),
+        ("rho", rho),
+        ("intersecting spheres", f"{result['max_neighbours']} at most, {result['mean_neighbours']:.2f} on average"),
+        ("components", str(result["components"])),
+    ]
+    return "\n".join(f"{name:<22}{text}" for name, text in rows)

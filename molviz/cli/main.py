@@ -1,0 +1,47 @@
+"""The group of all commands, and what a user sees when something is wrong."""
+
+import importlib
+import sys
+from typing import Any
+
+import click
+
+from molviz.errors import InputError
+
+COMMANDS = {  # name → module:object, imported when first used
+    "draw": "molviz.cli.draw:draw_command",
+    "hidden-lines": "molviz.cli.hidden_lines:hidden_lines_command",
+    "info": "molviz.cli.info:info_command",
+}
+
+
+class Commands(click.Group):
+    """Commands are imported one by one, and errors in the input end in one line and exit status 1."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names of all commands."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Return one command."""
+        if cmd_name not in COMMANDS:
+            return None
+        module, name = COMMANDS[cmd_name].split(":")
+        command: click.Command = getattr(importlib.import_module(module), name)
+        return command
+
+    def main(self, *args: Any, **kwargs: Any) -> Any:
+        """Run; no traceback reaches the user."""
+        try:
+            return super().main(*args, **kwargs)
+        except InputError as wrong:
+            click.echo(f"molviz: {wrong}", err=True)
+        except MemoryError:
+            click.echo("molviz: not enough memory for this input", err=True)
+        sys.exit(1)
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="molviz")
+def main() -> None:
+    """Exact vector drawings and exact numbers of molecules, and of anything else made of spheres."""

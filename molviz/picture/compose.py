@@ -1,0 +1,194 @@
+"""Geometry becomes a picture: what lines are comes in, what they look like is decided here."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from molviz.arrays import Bools, Floats, Ints
+from molviz.curves import Paths, PlaneArcs
+from molviz.geometry.rows import offsets
+from molviz.model.molecule import Molecule
+from molviz.picture.chains import Chains, linked, merged
+from molviz.picture.coloring import SCHEMES, order_of_appearance
+from molviz.picture.marks import marks
+from molviz.picture.page import Page, Placement, place
+from molviz.picture.picture import Color, FillLayer, Layer, Picture, StackedLayer, StrokeLayer
+from molviz.picture.style import Style
+from molviz.visibility.half_edges import Loops, loop_areas
+from molviz.visibility.map import BACKGROUND, VisibilityMap
+from molviz.visibility.painter import Pieces
+
+SLIVER = 0.004  # ångström: faces thinner than this are not drawn; displaced copies of one outline lie ten times closer
+SPREAD = 0.24  # points: the stroke in a fill's own colour that closes the hairline to its neighbour
+
+
+@dataclass(frozen=True)
+class Look:
+    """How the user wants a picture; widths in points, None for the style's."""
+
+    style: Style
+    color_by: str = "element"
+    fill: str = "flat"
+    outline: float | None = None
+    crease: float | None = None
+    background: Color | None = None
+    page: Page = Page()
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """The molecule of a drawing, and how its atoms and its size relate to the geometry."""
+
+    molecule: Molecule
+    atom: Ints  # (s,) the atom of each sphere
+    low: Floats  # (2,) ångström, of the bounding box of all images
+    high: Floats  # (2,)
+
+
+def picture_of_map(found: VisibilityMap, drawn: Drawn, look: Look) -> Picture:
+    """Return the drawing of a visibility map: regions that do not overlap, and on top every visible edge once."""
+    placement, widths = _placement(drawn, look)
+    arcs = found.arcs.moved(placement.scale, placement.shift)
+    sliver = _slivers(found)
+    layers: list[Layer] = []
+    if look.fill != "none":
+        layers.append(_regions(found, arcs, sliver, drawn, look))
+    roles = edge_roles(found, sliver)
+    for name, width in (("crease", widths[1]), ("outline", widths[0]), ("silhouette", widths[0])):
+        rows = np.flatnonzero(roles == name)
+        if width > 0 and len(rows):
+            chains = linked(found.origin, found.target, found.circle, rows)
+            layers.append(StrokeLayer(name, _paths(arcs, found.circle, chains), width, look.style.line_color))
+    return _picture(drawn, look, placement, widths, layers)
+
+
+def edge_roles(found: VisibilityMap, sliver: Bools) -> "np.ndarray[tuple[int], np.dtype[np.str_]]":
+    """Return what each arc is: ``crease``, ``outline`` (before another sphere), ``silhouette`` (before the background).
+
+    Horizons of slivers have no role: the edge they nearly coincide with is drawn instead.
+    """
+    horizon = np.where(found.right == BACKGROUND, "silhouette", "outline")
+    roles = np.where(found.is_crease(), "crease", horizon)
+    loop_of = np.empty(2 * len(found.start), dtype=np.int64)
+    loop_of[found.loops.half_edge] = np.repeat(np.arange(len(found.loops.face)), np.diff(found.loops.start))
+    return np.where(~found.is_crease() & sliver[loop_of[::2]], "", roles)
+
+
+def _slivers(found: VisibilityMap) -> Bools:
+    """Which loops enclose less than ``SLIVER`` times their half length."""
+    row = found.loops.half_edge >> 1
+    chord = found.arcs.take(row)
+    length = np.abs(chord.sweep) * np.sqrt((chord.u**2 + chord.v**2).sum(axis=1) / 2)
+    half = np.add.reduceat(length, found.loops.start[:-1]) / 2 if len(row) else np.empty(0)
+    return np.asarray(np.abs(loop_areas(found.arcs, found.loops)) < SLIVER * half)
+
+
+def _regions(found: VisibilityMap, arcs: PlaneArcs, sliver: Bools, drawn: Drawn, look: Look) -> FillLayer:
+    """One shape per visible atom, ordered by chain and residue so that these can be groups."""
+    keep = np.flatnonzero((found.loops.face != BACKGROUND) & ~sliver)
+    rank = _file_order(drawn.molecule)[drawn.atom]
+    order = keep[np.argsort(rank[found.loops.face[keep]], kind="stable")]
+    face = found.loops.face[order]
+    shape = np.cumsum(np.append(False, np.diff(face) != 0)[: len(face)])
+    paths = _paths(arcs, found.circle, _chains_of(found.loops, order), shape)
+    first = np.searchsorted(shape, np.arange(len(paths.shape_start) - 1))
+    return _fills("atoms", paths, drawn, face[first], look, True)
+
+
+def _file_order(molecule: Molecule) -> Ints:
+    """The rank of each atom when chains and, in them, residues stay together in order of appearance."""
+    chain = order_of_appearance(molecule.chain)
+    place = np.char.add(np.char.add(molecule.residue_name, " "), molecule.residue)
+    residue = order_of_appearance(place)
+    chain_number = np.array([chain[name] for name in molecule.chain.tolist()])
+    residue_number = np.array([residue[name] for name in place.tolist()])
+    rank = np.empty(len(molecule), dtype=np.int64)
+    rank[np.lexsort((residue_number, chain_number))] = np.arange(len(molecule))
+    return rank
+
+
+def _chains_of(found: Loops, rows: Ints) -> Chains:
+    """The given loops as closed chains."""
+    length = np.diff(found.start)[rows]
+    start = np.append(0, np.cumsum(length))
+    place = np.arange(start[-1]) + np.repeat(found.start[:-1][rows] - start[:-1], length)
+    return Chains(found.half_edge[place], start, np.ones(len(rows), dtype=bool))
+
+
+def _paths(arcs: PlaneArcs, circle: Ints, chains: Chains, shape: Ints | None = None) -> Paths:
+    """Chains as paths; all of one shape unless ``shape`` says of which (ascending from 0)."""
+    rows, start = merged(arcs, circle, chains)
+    shape = np.zeros(len(start) - 1, dtype=np.int64) if shape is None else shape
+    return Paths(rows, start, offsets(shape, int(shape.max()) + 1 if len(shape) else 0))
+
+
+def _fills(name: str, paths: Paths, drawn: Drawn, sphere: Ints, look: Look, grouped: bool) -> FillLayer:
+    atoms = drawn.atom[sphere]
+    everyone = SCHEMES[look.color_by](drawn.molecule, look.style)
+    colors = [everyone[atom] for atom in atoms.tolist()]
+    if look.fill == "none":
+        colors = [look.background or (255, 255, 255)] * len(colors)
+    spread = 0.0 if look.color_by == "index" else SPREAD
+    return FillLayer(name, paths, colors, marks(drawn.molecule.take(atoms), grouped), spread)
+
+
+def picture_of_pieces(found: Pieces, drawn: Drawn, look: Look) -> Picture:
+    """Return the drawing of painter's pieces, back to front, each with the strokes of its own edges."""
+    placement, widths = _placement(drawn, look)
+    arcs = found.arcs.moved(placement.scale, placement.shift)
+    rank = np.full(len(drawn.atom), -1)
+    rank[found.order] = np.arange(len(found.order))
+    order = np.argsort(rank[found.loops.face], kind="stable")
+    chains = _chains_of(found.loops, order)
+    shape = rank[found.loops.face[order]]
+    fills = _fills("fills", _paths(arcs, found.circle, chains, shape), drawn, found.order, look, False)
+    edge_shape = np.repeat(shape, np.diff(chains.start))
+    edge = chains.half_edge >> 1
+    strokes = [
+        _strokes_of_pieces(name, found, arcs, edge[wanted[edge]], edge_shape[wanted[edge]], width, look)
+        for name, wanted, width in (("crease", found.is_crease, widths[1]), ("outline", ~found.is_crease, widths[0]))
+        if width > 0
+    ]
+    return _picture(drawn, look, placement, widths, [StackedLayer("atoms", fills, strokes)])
+
+
+def _strokes_of_pieces(
+    name: str, found: Pieces, arcs: PlaneArcs, edge: Ints, shape: Ints, width: float, look: Look
+) -> StrokeLayer:
+    """The edges of one kind, one shape per piece, each chained within its piece only."""
+    vertex = found.origin * len(found.order), found.target * len(found.order)
+    owner = np.zeros(len(found.origin), dtype=np.int64)
+    owner[edge] = shape
+    chains = linked(vertex[0] + owner, vertex[1] + owner, found.circle, edge)
+    of_chain = owner[chains.half_edge[chains.start[:-1]] >> 1]
+    order = np.argsort(of_chain, kind="stable")
+    loops = Loops(chains.half_edge, chains.start, of_chain)
+    ordered = _chains_of(loops, order)._replace(closed=chains.closed[order])
+    rows, start = merged(arcs, found.circle, ordered)
+    return StrokeLayer(name, Paths(rows, start, offsets(of_chain, len(found.order))), width, look.style.line_color)
+
+
+def _placement(drawn: Drawn, look: Look) -> tuple[Placement, tuple[float, float]]:
+    """Where the drawing lies, and the widths of outlines and creases in points."""
+    style = look.style
+    widest = max(style.outline.width if look.outline is None else look.outline, look.crease or 0.0)
+    placement = place(look.page, drawn.low, drawn.high, widest / 2)
+    outline = style.outline.at(placement.scale) if look.outline is None else look.outline
+    crease = style.crease.at(placement.scale) if look.crease is None else look.crease
+    return placement, (outline, crease)
+
+
+def _picture(
+    drawn: Drawn, look: Look, placement: Placement, widths: tuple[float, float], layers: list[Layer]
+) -> Picture:
+    half = max(*widths, 0.0 if look.color_by == "index" else SPREAD) / 2
+    low, high = (placement.scale * corner + placement.shift for corner in (drawn.low, drawn.high))
+    box = (float(low[0] - half), float(low[1] - half), float(high[0] + half), float(high[1] + half))
+    return Picture(
+        width=placement.width,
+        height=placement.height,
+        box=box,
+        layers=layers,
+        title=drawn.molecule.name,
+        background=look.background,
+    )

@@ -1,0 +1,21 @@
+"""Names of atoms for ids, tooltips, classes and layers."""
+
+from molviz.model.molecule import Molecule
+from molviz.picture.picture import Mark
+
+
+def marks(molecule: Molecule, grouped: bool) -> list[Mark]:
+    """Return a mark per atom: in groups by chain and residue, or else with their names as classes."""
+    columns = (molecule.chain, molecule.residue_name, molecule.residue, molecule.atom_name, molecule.element)
+    rows = zip(*(column.tolist() for column in columns), molecule.row.tolist(), strict=True)
+    return [_mark(*row, grouped=grouped) for row in rows]
+
+
+def _mark(chain: str, name: str, residue: str, atom: str, element: str, row: int, *, grouped: bool) -> Mark:
+    if not name:
+        return Mark(id=f"{element}{row + 1}", title=f"{atom} {row + 1}", classes=(element,))
+    place = f"{name} {residue}"
+    mark_id, title = f"{chain}{residue}{atom}", f"{place} {atom}"
+    if grouped:
+        return Mark(mark_id, title, (element,), ((chain or "-", "chain"), (place, "residue")))
+    return Mark(mark_id, title, (element, name, f"chain-{chain}" if chain else "chain"))

@@ -1,0 +1,68 @@
+"""Where the drawing lies on the page: sizes in points, 72 to the inch."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from molviz.arrays import Floats
+
+POINTS = {"pt": 1.0, "mm": 72 / 25.4, "cm": 720 / 25.4, "in": 72.0, "px": 0.75}
+PAPER = {"a4": (210 * POINTS["mm"], 297 * POINTS["mm"]), "letter": (612.0, 792.0)}
+USUAL_SIZE = 14 * POINTS["cm"]  # the longer side of a drawing whose size nobody asked for
+LARGEST_SCALE = 40.0  # points per ångström of such a drawing
+USUAL_MARGIN = {"fit": 4.0, "a4": 36.0, "letter": 36.0}
+
+
+@dataclass(frozen=True)
+class Page:
+    """What the user asked for; lengths in points, None for what is usual."""
+
+    size: str = "fit"  # or a name of PAPER
+    width: float | None = None  # of the drawing, margins not counted
+    scale: float | None = None  # points per ångström
+    margin: float | None = None
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Page coordinates are ``scale × (drawing) + shift``."""
+
+    scale: float
+    shift: Floats  # (2,)
+    width: float
+    height: float
+
+
+def place(page: Page, low: Floats, high: Floats, line: float) -> Placement:
+    """Return where a drawing from ``low`` to ``high`` (2,) ångström goes; ``line`` points more around it are painted.
+
+    It is centred, on a page of fixed size as large as the margins let it be unless told otherwise; a page that fits the
+    drawing is a whole number of points wide and high, so that it divides into whole pixels.
+    """
+    margin = (USUAL_MARGIN[page.size] if page.margin is None else page.margin) + line
+    extent = np.maximum(high - low, 1e-9)
+    paper = PAPER.get(page.size)
+    scale = page.scale or _scale(page, extent, paper, margin)
+    width, height = paper or tuple(float(np.ceil(side - 1e-9)) for side in extent * scale + 2 * margin)
+    shift = np.array([width, height]) / 2 - scale * (low + high) / 2
+    return Placement(scale, shift, width, height)
+
+
+def _scale(page: Page, extent: Floats, paper: tuple[float, float] | None, margin: float) -> float:
+    if page.width is not None:
+        return page.width / float(extent[0])
+    if paper is not None:
+        return float(np.min((np.array(paper) - 2 * margin) / extent))
+    return min(USUAL_SIZE / float(extent.max()), LARGEST_SCALE)
+
+
+def parse_length(text: str) -> float:
+    """Return a length such as ``12cm``, ``80mm``, ``3in``, ``400px`` or ``300`` (points) in points.
+
+    Raises ValueError for anything else and for lengths that are not positive.
+    """
+    unit = text[-2:] if text[-2:] in POINTS else ""
+    value = float(text.removesuffix(unit)) * POINTS.get(unit, 1.0)
+    if not 0 < value < 1e6:
+        raise ValueError("a length must be positive")
+    return value

@@ -1,0 +1,100 @@
+"""From a molecule to the bytes of a drawing: every stage in order."""
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from molviz.errors import InputError
+from molviz.picture.compose import Drawn, Look, picture_of_map, picture_of_pieces
+from molviz.picture.picture import Picture
+from molviz.pipeline.inputs import Loaded
+from molviz.visibility.checks import check_map
+from molviz.visibility.half_edges import loop_areas
+from molviz.visibility.map import BACKGROUND
+from molviz.visibility.map_json import map_as_data
+from molviz.visibility.scene import extent, in_one_view, map_of_scene, pieces_of_scene
+from molviz.visibility.view import View, file_axes, principal_axes
+from molviz.write import WRITERS, write
+
+JSON = ".json"
+Report = Callable[[str], None]  # told the name of each stage as it begins
+
+
+@dataclass(frozen=True)
+class Eye:
+    """Where the user looks from."""
+
+    orient: str = "principal"
+    rotations: tuple[tuple[str, float], ...] = ()  # axis of the page, degrees
+    distance: float | None = None  # ångström from the centre, None for a parallel view
+
+
+class Drawing(NamedTuple):
+    """The bytes of a drawing and what its summary line tells."""
+
+    data: bytes
+    atoms: int
+    visible: int
+    arcs: int
+
+
+def draw(loaded: Loaded, suffix: str, look: Look, eye: Eye, method: str, check: bool, report: Report) -> Drawing:
+    """Return one model drawn in the format of ``suffix``; ``method`` is ``visible`` or ``painter``.
+
+    ``check`` verifies the visibility map and raises InputError where an invariant does not hold.
+    """
+    view = view_of(loaded, eye)
+    low, high = extent(loaded.spheres, view)
+    drawn = Drawn(loaded.molecule, np.arange(len(loaded.molecule)), low, high)
+    if method == "painter":
+        if suffix == JSON:
+            raise InputError("the visibility map is written as JSON; use --method visible", loaded.source)
+        return _painted(loaded, suffix, look, view, drawn, report)
+    return _mapped(loaded, suffix, look, view, drawn, check, report)
+
+
+def _mapped(
+    loaded: Loaded, suffix: str, look: Look, view: View, drawn: Drawn, check: bool, report: Report
+) -> Drawing:
+    report("visibility map")
+    found, atom = in_one_view(loaded.spheres, view, map_of_scene)
+    if check:
+        check_map(found, view)
+    seen = np.unique(found.loops.face[loop_areas(found.arcs, found.loops) > 0])
+    visible = int(np.sum(seen != BACKGROUND))
+    if suffix == JSON:
+        data = json.dumps(map_as_data(found, loaded.molecule.row[atom], view), separators=(",", ":")).encode() + b"\n"
+    else:
+        report("picture")
+        data = _written(picture_of_map(found, Drawn(drawn.molecule, atom, drawn.low, drawn.high), look), suffix, report)
+    return Drawing(data, loaded.read, visible, len(found.start))
+
+
+def _painted(loaded: Loaded, suffix: str, look: Look, view: View, drawn: Drawn, report: Report) -> Drawing:
+    report("painter's pieces")
+    found, atom = in_one_view(loaded.spheres, view, pieces_of_scene)
+    report("picture")
+    picture = picture_of_pieces(found, Drawn(drawn.molecule, atom, drawn.low, drawn.high), look)
+    return Drawing(_written(picture, suffix, report), loaded.read, len(found.order), len(found.circle))
+
+
+def _written(picture: Picture, suffix: str, report: Report) -> bytes:
+    report("writing")
+    return write(picture, suffix)
+
+
+def view_of(loaded: Loaded, eye: Eye) -> View:
+    """Return the view that the user's options mean for one model."""
+    axes = principal_axes if eye.orient == "principal" else file_axes
+    view = axes(loaded.spheres, eye.distance)
+    for axis, degrees in eye.rotations:
+        view = view.rotated(axis, degrees)
+    return view
+
+
+def suffixes() -> tuple[str, ...]:
+    """Return the suffixes of all formats that ``draw`` writes."""
+    return (*WRITERS, JSON)

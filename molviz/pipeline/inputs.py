@@ -1,0 +1,95 @@
+"""From a file to the atoms that the user wants of it, and their spheres."""
+
+from dataclasses import dataclass, replace
+from pathlib import PurePath
+from typing import NamedTuple
+
+import numpy as np
+
+from molviz.arrays import Bools
+from molviz.errors import InputError
+from molviz.model.molecule import Molecule
+from molviz.model.radii import DEFAULT
+from molviz.model.selection import is_hydrogen, is_water, select
+from molviz.model.spheres import Spheres, spheres_of
+from molviz.read import Reading, read
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Which part of a file is wanted, and how large its atoms are."""
+
+    model: str = "1"  # number from 1, or "all"
+    assembly: str | None = None
+    select: str | None = None
+    water: bool = True
+    hydrogens: bool = True
+    chains: tuple[str, ...] = ()
+    radii: str = DEFAULT
+    scale_radii: float = 1.0
+    probe: float = 0.0
+    format: str | None = None
+
+
+class Loaded(NamedTuple):
+    """One model of one file, ready for geometry; ``read`` counts its atoms before any were left out."""
+
+    source: str
+    format: str
+    model: int  # from 1
+    models: int  # that the file holds
+    read: int
+    molecule: Molecule
+    spheres: Spheres
+    warnings: tuple[str, ...]
+
+
+def load(source: str, wanted: Wanted, data: bytes | None = None) -> list[Loaded]:
+    """Return the wanted models of a file (``data``: its content where it was read already).
+
+    Raises InputError for what cannot be read, for a model or assembly that is not there, and where nothing is left.
+    """
+    reading = read(source, data, wanted.format)
+    return [_loaded(reading, number, wanted) for number in _model_numbers(reading, wanted.model)]
+
+
+def _model_numbers(reading: Reading, model: str) -> list[int]:
+    count = len(reading.models)
+    if model == "all":
+        return list(range(1, count + 1))
+    if model.isdigit() and 1 <= int(model) <= count:
+        return [int(model)]
+    raise InputError(f"no model or frame {model!r}; the file has {count}, numbered from 1", reading.source)
+
+
+def _loaded(reading: Reading, number: int, wanted: Wanted) -> Loaded:
+    whole = reading.models[number - 1]
+    if wanted.assembly is not None:
+        whole = reading.assembly(wanted.assembly, number - 1)
+    molecule = _named(_kept(whole, wanted, reading.source), reading.source)
+    spheres, warnings = spheres_of(molecule, wanted.radii, wanted.scale_radii, wanted.probe)
+    told = tuple(f"{reading.source}: {warning}" for warning in warnings)
+    count = len(reading.models)
+    return Loaded(
+        reading.source, reading.format, number, count, len(whole), molecule, spheres, reading.warnings + told
+    )
+
+
+def _kept(molecule: Molecule, wanted: Wanted, source: str) -> Molecule:
+    keep: Bools = np.ones(len(molecule), dtype=bool)
+    if wanted.select is not None:
+        keep &= select(molecule, wanted.select)
+    if not wanted.water:
+        keep &= ~is_water(molecule)
+    if not wanted.hydrogens:
+        keep &= ~is_hydrogen(molecule)
+    if wanted.chains:
+        keep &= np.isin(molecule.chain, wanted.chains)
+    if not keep.any():
+        chains = ", ".join(dict.fromkeys(molecule.chain.tolist()))
+        raise InputError(f"no atoms are left by the selection; the chains are {chains or 'not named'}", source)
+    return molecule if keep.all() else molecule.take(np.flatnonzero(keep))
+
+
+def _named(molecule: Molecule, source: str) -> Molecule:
+    return molecule if molecule.name else replace(molecule, name=PurePath(source).name)

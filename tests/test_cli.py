@@ -1,0 +1,162 @@
+"""The command line as a user meets it."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+from molviz.cli import main
+
+SAMPLES = Path(__file__).parent.parent / "samples"
+CAFFEINE = str(SAMPLES / "caffeine.xyz")
+CRAMBIN = str(SAMPLES / "crambin.pdb")
+
+
+def run(*words: str, stdin: bytes = b"") -> Result:
+    return CliRunner().invoke(main, list(words), input=stdin)
+
+
+def drawn(tmp_path: Path, *words: str, suffix: str = ".json") -> bytes:
+    target = tmp_path / f"picture{suffix}"
+    result = run("draw", *words, "-o", str(target), "--quiet")
+    assert result.exit_code == 0, result.output
+    return target.read_bytes()
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".svgz", ".ps", ".eps", ".pdf", ".json"])
+@pytest.mark.parametrize("method", ["visible", "painter"])
+def test_every_format_is_written_twice_the_same(tmp_path: Path, suffix: str, method: str) -> None:
+    if suffix == ".json" and method == "painter":
+        pytest.skip("the map is not made by painting")
+    once = drawn(tmp_path, CAFFEINE, "--method", method, suffix=suffix)
+    assert once == drawn(tmp_path, CAFFEINE, "--method", method, suffix=suffix)
+    assert len(once) > 500
+
+
+def test_the_summary_is_one_line_on_standard_error(tmp_path: Path) -> None:
+    result = run("draw", CAFFEINE, "-o", str(tmp_path / "c.svg"))
+    assert result.stdout == ""
+    assert len(result.stderr.splitlines()) == 1
+    for word in ("24 atoms read", "visible", "arcs", "bytes", " s"):
+        assert word in result.stderr
+
+
+def test_json_is_the_map_of_the_contract(tmp_path: Path) -> None:
+    data = json.loads(drawn(tmp_path, CRAMBIN, "--check", "--orient", "file"))
+    assert (data["format"], data["version"], data["units"]) == ("molviz-visibility-map", 1, "angstrom")
+    assert np.allclose(data["view"], np.eye(3))
+    for number, arc in enumerate(data["arcs"]):
+        assert set(arc) == {"kind", "spheres", "c", "u", "v", "start", "sweep", "left", "right", "from", "to"}
+        assert arc["sweep"] > 0 and (arc["kind"] == "crease") == (arc["spheres"][1] >= 0), number
+    for face in data["faces"]:
+        for loop in face["loops"]:
+            for edge, following in zip(loop, loop[1:] + loop[:1], strict=True):
+                assert data["arcs"][edge >> 1]["right" if edge & 1 else "left"] == face["sphere"]
+                end, begin = "from" if edge & 1 else "to", "to" if following & 1 else "from"
+                assert data["arcs"][edge >> 1][end] == data["arcs"][following >> 1][begin]
+
+
+def test_json_spheres_lie_where_the_file_has_them(tmp_path: Path) -> None:
+    data = json.loads(drawn(tmp_path, CAFFEINE, "--orient", "file"))
+    lines = Path(CAFFEINE).read_text(encoding="utf-8").splitlines()[2:]
+    for sphere in data["spheres"]:
+        expected = [float(word) for word in lines[sphere["atom"]].split()[1:4]]
+        assert np.allclose(sphere["center"], expected, atol=2e-4)
+
+
+def test_turning_about_the_line_of_sight_changes_no_area(tmp_path: Path) -> None:
+    straight = json.loads(drawn(tmp_path, CRAMBIN))
+    turned = json.loads(drawn(tmp_path, CRAMBIN, "--rotate", "z,37"))
+    areas = [{face["sphere"]: face["area"] for face in data["faces"]} for data in (straight, turned)]
+    atoms = [[sphere["atom"] for sphere in data["spheres"]] for data in (straight, turned)]
+    by_atom = [{atoms[k][sphere]: area for sphere, area in areas[k].items()} for k in (0, 1)]
+    assert by_atom[0].keys() == by_atom[1].keys()
+    assert all(np.isclose(by_atom[0][atom], by_atom[1][atom], atol=1e-9) for atom in by_atom[0])
+
+
+def test_standard_input_and_output() -> None:
+    result = run("draw", "-", "--format", "xyz", "-o", "-", "--to", "svg", "--quiet", stdin=Path(CAFFEINE).read_bytes())
+    assert result.exit_code == 0
+    root = ElementTree.fromstring(result.stdout_bytes)
+    titles = [element.text for element in root.iter("{http://www.w3.org/2000/svg}title")]
+    assert "N 4" in titles or any(title and title.startswith("N ") for title in titles)
+
+
+def test_several_inputs_go_into_a_folder_and_one_bad_file_stops_nothing(tmp_path: Path) -> None:
+    bad = tmp_path / "bad.xyz"
+    bad.write_text("2\n\nC 0 0 0\n", encoding="utf-8")
+    result = run("draw", CAFFEINE, str(bad), CRAMBIN, "-o", f"{tmp_path}/out/", "--to", "svg")
+    assert result.exit_code == 1
+    assert f"molviz: {bad}:1:" in result.stderr
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["caffeine.svg", "crambin.svg"]
+
+
+def test_several_inputs_to_one_file_are_a_usage_error(tmp_path: Path) -> None:
+    assert run("draw", CAFFEINE, CRAMBIN, "-o", str(tmp_path / "one.svg")).exit_code == 2
+
+
+def test_a_pattern_names_the_outputs(tmp_path: Path) -> None:
+    assert run("draw", CAFFEINE, CRAMBIN, "-o", str(tmp_path / "{stem}-x.svg"), "--quiet").exit_code == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["caffeine-x.svg", "crambin-x.svg"]
+
+
+def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
+    target = tmp_path / "old.svg"
+    target.write_text("old", encoding="utf-8")
+    assert run("draw", str(tmp_path / "missing.pdb"), "-o", str(target)).exit_code == 1
+    assert target.read_text(encoding="utf-8") == "old"
+    assert [path.name for path in tmp_path.iterdir()] == ["old.svg"]
+
+
+def test_an_output_that_cannot_be_written_is_told() -> None:
+    result = run("draw", CAFFEINE, "-o", "/proc/none/x.svg")
+    assert result.exit_code == 1 and "cannot be written" in result.stderr
+
+
+@pytest.mark.parametrize(
+    "words",
+    [["draw", CAFFEINE], ["draw", CAFFEINE, "-o", "x.tiff"], ["draw", CAFFEINE, "-o", "x.svg", "--rotate", "30"],
+     ["draw", CAFFEINE, "-o", "x.svg", "--width", "-3cm"], ["draw", CAFFEINE, "-o", "x.svg", "--background", "pinkish"]],
+)  # fmt: skip
+def test_a_wrong_command_line_exits_with_two(words: list[str]) -> None:
+    result = run(*words)
+    assert result.exit_code == 2 and "Traceback" not in result.output
+
+
+def test_warnings_become_errors_when_strict(tmp_path: Path) -> None:
+    odd = tmp_path / "odd.xyz"
+    odd.write_text("1\n\nXx 0 0 0\n", encoding="utf-8")
+    assert run("draw", str(odd), "-o", str(tmp_path / "x.svg")).exit_code == 0
+    strict = run("draw", str(odd), "-o", str(tmp_path / "y.svg"), "--strict")
+    assert strict.exit_code == 1 and not (tmp_path / "y.svg").exists()
+
+
+def test_sizes_are_what_was_asked_for(tmp_path: Path) -> None:
+    wide = drawn(tmp_path, CAFFEINE, "--width", "10cm", "--margin", "0", "--outline", "0", suffix=".svg")
+    assert b'width="284pt"' in wide  # 283.46 points, rounded up to whole ones
+    paper = drawn(tmp_path, CAFFEINE, "--page", "a4", suffix=".ps")
+    assert b"PageSize[595.28 841.89]" in paper
+
+
+def test_info_tells_the_hard_sphere_model() -> None:
+    result = run("info", CAFFEINE, "--json")
+    told = json.loads(result.stdout)["results"][0]
+    assert told["atoms"] == 24 and told["elements"] == {"C": 8, "H": 10, "N": 4, "O": 2}
+    assert told["k"] == pytest.approx(1.7 / 1.2)
+    assert 0.4 < told["rho"] < 1 and told["max_neighbours"] >= told["mean_neighbours"] > 4
+    assert told["components"] == 1
+
+
+def test_a_help_text_with_an_example_for_every_command() -> None:
+    for name in main.list_commands(None):  # type: ignore[arg-type]
+        assert f"molviz {name}" in run(name, "--help").output.replace("Usage: main", "")
+
+
+def test_nothing_heavy_is_imported_for_help() -> None:
+    code = "import sys, molviz.cli; assert not {'numpy', 'gemmi', 'svgwrite', 'pydyf'} & set(sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True)

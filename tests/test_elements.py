@@ -1,0 +1,56 @@
+"""Symbols, and elements from names."""
+
+import gemmi
+import pytest
+
+from molviz.model.elements import SYMBOLS, symbol_of, symbol_of_atom_name, symbol_of_label
+
+
+def test_symbols_are_those_of_the_periodic_table() -> None:
+    assert [gemmi.Element(number).name for number in range(1, 119)] == list(SYMBOLS)
+
+
+@pytest.mark.parametrize("text", ["FE", "fe", " Fe ", "Fe"])
+def test_symbols_in_any_case(text: str) -> None:
+    assert symbol_of(text) == "Fe"
+
+
+def test_isotopes() -> None:
+    assert (symbol_of("D"), symbol_of("T"), symbol_of("Xx")) == ("D", "H", "")
+
+
+def test_labels() -> None:
+    labels = ["C1", "H2a", "Fe2+", "6", "0", "119", "Si", "OW", "X", "+", "³"]
+    assert [symbol_of_label(label) for label in labels] == ["C", "H", "Fe", "C", "X", "X", "Si", "X", "X", "X", "X"]
+
+
+@pytest.mark.parametrize(
+    ("name", "residue", "element"),
+    [
+        ("CA  ", "UKN", "Ca"),  # column 13 in a ligand
+        (" CA ", "UKN", "C"),
+        ("CA  ", "LYS", "C"),  # a protein has no calcium, wherever its names stand
+        ("  CA", "MET", "C"),
+        ("Hh22", "ARG", "H"),
+        ("HG1 ", "ARG", "H"),
+        ("AC5 ", "AP5", "C"),
+        ("OA22", "NAP", "O"),
+        ("NO2 ", "NAP", "O"),
+        (" HO ", "LIG", "H"),
+        ("CL12", "LIG", "Cl"),
+        ("C210", "LIG", "C"),
+        ("FE12", "SF4", "Fe"),
+        ("SE  ", "MSE", "Se"),
+        ("SOD ", "SOD", "Na"),
+        ("CLA ", "CLA", "Cl"),
+        (" K  ", "K", "K"),
+        (" ZN ", "ZN", "Zn"),
+        (" OH2", "TIP3", "O"),
+        ("1HB*", "LIG", "H"),
+        ("BB1 ", "DC", "X"),
+        ("Q   ", "LIG", "X"),
+        ("", "", "X"),
+    ],
+)
+def test_atom_names(name: str, residue: str, element: str) -> None:
+    assert symbol_of_atom_name(name, residue) == element

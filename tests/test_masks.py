@@ -1,0 +1,65 @@
+"""Pictures against a z-buffer of the same spheres: no pixel inside a region may differ."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from molviz.model.spheres import Spheres
+from molviz.picture.compose import Look
+from molviz.picture.page import Page
+from molviz.picture.style import load_style
+from molviz.pipeline.draw import Eye, draw, view_of
+from molviz.pipeline.inputs import Loaded, Wanted, load
+from tests.render import needs_ghostscript, render_ps, render_svg
+from tests.zbuffer import interior, mask_labels, zbuffer
+
+SAMPLES = Path(__file__).parent.parent / "samples"
+TURNS = [(), (("x", 40.0), ("y", 65.0), ("z", 10.0))]
+SIZE = 500.0  # points along the longer side; two pixels a point
+
+
+def mask(loaded: Loaded, eye: Eye, suffix: str, method: str) -> tuple[bytes, Spheres, float]:
+    """A picking mask, the spheres as seen, and points per ångström."""
+    seen = view_of(loaded, eye).of(loaded.spheres)
+    low, high = bounds(seen)
+    scale = SIZE / float((high - low).max())
+    look = Look(load_style("default"), "index", outline=0.0, crease=0.0, page=Page(scale=scale))
+    return draw(loaded, suffix, look, eye, method, False, lambda stage: None).data, seen, scale
+
+
+def bounds(spheres: Spheres) -> tuple[np.ndarray, np.ndarray]:
+    reach = spheres.radius[:, None]
+    return (spheres.center[:, :2] - reach).min(axis=0), (spheres.center[:, :2] + reach).max(axis=0)
+
+
+def wrong_pixels(label: np.ndarray, seen: Spheres, low: np.ndarray, scale: float) -> int:
+    truth = zbuffer(seen, low, 0.5 / scale, label.shape)
+    inside = interior(truth)
+    assert inside.sum() > 10_000
+    return int(np.sum(inside & (label != truth)))
+
+
+@pytest.mark.parametrize("method", ["visible", "painter"])
+@pytest.mark.parametrize("turn", TURNS, ids=["file", "turned"])
+@pytest.mark.parametrize("name", ["caffeine.xyz", "C60.xyz", "crambin.pdb", "nacl.extxyz"])
+def test_svg_mask_equals_zbuffer(name: str, turn: tuple[tuple[str, float], ...], method: str) -> None:
+    loaded = load(str(SAMPLES / name), Wanted())[0]
+    svg, seen, scale = mask(loaded, Eye("file", turn), ".svg", method)
+    page = np.array([float(x) for x in re.findall(rb'viewBox="0 0 (\S+) ([^"]+)"', svg)[0]])
+    low, high = bounds(seen)
+    label = mask_labels(render_svg(svg, int(2 * page[0])))
+    assert wrong_pixels(label, seen, (low + high) / 2 - page / 2 / scale, scale) == 0
+
+
+@needs_ghostscript
+@pytest.mark.parametrize("method", ["visible", "painter"])
+@pytest.mark.parametrize("turn", TURNS, ids=["file", "turned"])
+@pytest.mark.parametrize("name", ["caffeine.xyz", "C60.xyz", "crambin.pdb"])
+def test_eps_mask_equals_zbuffer(name: str, turn: tuple[tuple[str, float], ...], method: str) -> None:
+    """The tight bounding box begins where the spheres do."""
+    loaded = load(str(SAMPLES / name), Wanted())[0]
+    eps, seen, scale = mask(loaded, Eye("file", turn), ".eps", method)
+    label = mask_labels(render_ps(eps, 144))
+    assert wrong_pixels(label, seen, bounds(seen)[0], scale) == 0
