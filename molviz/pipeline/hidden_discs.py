@@ -28,6 +28,8 @@ from molviz.visibility.discs import DiscArcs, Work, visible_arcs
 
 Statistics: TypeAlias = dict[str, int | float | dict[str, int]]
 
+DISPLACEMENTS = 8  # one does for nearly every scene, two for the rest
+
 LABELS = {  # his words, where he has them
     "n": "Circles", "radius": "Max radius", "depth": "Depth complexity", "grid": "Grid resolution",
     "cell_entries": "Circle entries on cell lists", "cells_blocked": "Cells with blocking circles",
@@ -63,7 +65,10 @@ class HiddenDiscs:
             "radius": float(self.spheres.radius.max()),
             "depth": depth_complexity(self.spheres.radius, self.grid.square),
             "grid": self.grid.across,
-            **self.work._asdict(),
+            "cell_entries": self.work.cell_entries,
+            "cells_blocked": self.work.cells_blocked,
+            "pairs_tested": self.work.pairs_tested,
+            "pairs_intersecting": self.work.pairs_intersecting,
             "visible_whole": whole,
             "visible_in_arcs": {str(k): int(pieces[k]) for k in range(1, len(pieces))},
             "hidden": int(pieces[0]) - whole,
@@ -103,12 +108,22 @@ def hide_discs(spheres: Spheres, square: Square | None = None, across: int | Non
 
 
 def regions_of(scene: HiddenDiscs) -> DiscRegions:
-    """Return the visible regions; those of a copy displaced by far less than any line's width if arcs do not join."""
-    try:
-        return visible_regions(scene.spheres, scene.grid, scene.lists, scene.arcs)
-    except GeneralPositionError:
-        moved = hide_discs(displaced(scene.spheres), across=scene.grid.across)
-        return visible_regions(moved.spheres, moved.grid, moved.lists, moved.arcs)
+    """Return the visible regions; those of a displaced copy if the scene is not in general position.
+
+    Raises ``GeneralPositionError`` if displacing does not help.
+    """
+    for attempt in range(DISPLACEMENTS):
+        try:
+            return _regions(scene)
+        except GeneralPositionError:
+            scene = hide_discs(displaced(scene.spheres, seed=attempt), across=scene.grid.across)
+    return _regions(scene)
+
+
+def _regions(scene: HiddenDiscs) -> DiscRegions:
+    if scene.work.pairs_touching:
+        raise GeneralPositionError
+    return visible_regions(scene.spheres, scene.grid, scene.lists, scene.arcs)
 
 
 def picture_of(scene: HiddenDiscs, look: DiscLook, fill: bool = False, title: str = "") -> Picture:

@@ -22,9 +22,12 @@ from molviz.model.spheres import Spheres
 from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, foremost, nearer
 from molviz.visibility.discs import DiscArcs
 
+CLEAR = 1e-11  # radians, or of a radius: far more than rounding, far less than a displacement makes of a coincidence
+DISPLACEMENT = 1e-6  # of the smallest radius: no line is so thin
+
 
 class GeneralPositionError(ArithmeticError):
-    """Perimeters that coincide or meet three at a point leave arcs whose ends cannot be joined."""
+    """Perimeters that coincide, touch or meet three at a point: how arcs join is then a matter of rounding."""
 
 
 class DiscRegions(NamedTuple):
@@ -60,9 +63,10 @@ class _Pieces(NamedTuple):
     first: Ints  # (arcs + 1,) the first piece of each arc
 
 
-def displaced(spheres: Spheres, share: float = 1e-7) -> Spheres:
-    """Return a copy in general position: every centre moved by up to ``share`` of the smallest radius, reproducibly."""
-    shift = np.random.default_rng(1980).uniform(-share, share, (len(spheres.radius), 2)) * spheres.radius.min()
+def displaced(spheres: Spheres, seed: int) -> Spheres:
+    """Return a copy whose centres are moved by up to 10⁻⁶ of the smallest radius, reproducibly."""
+    reach = DISPLACEMENT * float(spheres.radius.min())
+    shift = np.random.default_rng(seed).uniform(-reach, reach, (len(spheres.radius), 2))
     return Spheres(spheres.center + np.column_stack([shift, np.zeros(len(shift))]), spheres.radius)
 
 
@@ -70,7 +74,7 @@ def visible_regions(spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscAr
     """Return the visible regions of discs whose visible arcs are given.
 
     Regions whose own perimeter is hidden are included (his Fig. 7). Raises ``GeneralPositionError`` where arcs do
-    not join; a displaced copy of the discs then has the same regions to within the displacement.
+    not join, or too closely to be sure; a displaced copy of the discs has the same regions to within the displacement.
     """
     junctions = _junctions(spheres, arcs)
     pieces = _cut(arcs, junctions)
@@ -93,10 +97,19 @@ def _junctions(spheres: Spheres, arcs: DiscArcs) -> _Junctions:
 
     host = _host(arcs, over, around)
     offset = np.mod(around - arcs.start[host], TURN)
-    if np.any(arcs.circle[host] != over) or np.any(offset > arcs.sweep[host]):
-        raise GeneralPositionError
     order = np.lexsort((offset, host))
-    return _Junctions(host[order], offset[order], arc[order], at_end[order])
+    junctions = _Junctions(host[order], offset[order], arc[order], at_end[order])
+    if np.any(arcs.circle[host] != over) or not _apart(arcs, junctions):
+        raise GeneralPositionError
+    return junctions
+
+
+def _apart(arcs: DiscArcs, junctions: _Junctions) -> bool:
+    """Tell whether junctions lie within their hosts, clear of the hosts' ends and of each other."""
+    host, offset = junctions.host, junctions.offset
+    inside = (offset > CLEAR) & (offset < arcs.sweep[host] - CLEAR)
+    between = (np.diff(offset) > CLEAR) | (np.diff(host) > 0)
+    return bool(np.all(inside) and np.all(between))
 
 
 def _host(arcs: DiscArcs, circle: Ints, angle: Floats) -> Ints:
@@ -202,8 +215,10 @@ def _next_behind(spheres: Spheres, grid: Grid, lists: CellLists, circle: Ints, a
     blocked = np.flatnonzero(lists.blocker[cell] != NOBODY)
     point = np.concatenate([point, blocked])
     disc = np.concatenate([lists.item[place], lists.blocker[cell[blocked]]])
-    gap = np.hypot(spheres.center[disc, 0] - x[point], spheres.center[disc, 1] - y[point])
-    behind = (gap < spheres.radius[disc]) & nearer(spheres, circle[point], disc)
+    depth = spheres.radius[disc] - np.hypot(spheres.center[disc, 0] - x[point], spheres.center[disc, 1] - y[point])
+    if np.any((np.abs(depth) < CLEAR * spheres.radius[disc]) & (disc != circle[point])):
+        raise GeneralPositionError
+    behind = (depth > 0) & nearer(spheres, circle[point], disc)
     found = foremost(spheres.center[:, 2], disc[behind], point[behind], len(circle))[1]
     return np.where(found == NOBODY, -1, found)
 

@@ -45,6 +45,7 @@ class Work(NamedTuple):
     cells_blocked: int
     pairs_tested: int
     pairs_intersecting: int
+    pairs_touching: int  # tangent, or coincident
 
 
 class Pairs(NamedTuple):
@@ -62,13 +63,13 @@ def visible_arcs(spheres: Spheres, grid: Grid, lists: CellLists) -> tuple[DiscAr
     its midpoint decides. Arcs do not depend on the grid, but for rounding.
     """
     pairs, tested = pairs_on_lists(spheres, lists)
-    visible, crossing = [], 0
-    for remaining, crossings in _arcs_of_blocks(spheres, lists, pairs):
+    visible, crossing, touching = [], 0, 0
+    for remaining, crossings, touches in _arcs_of_blocks(spheres, lists, pairs):
         visible.append(remaining.take(~_midpoint_hidden(spheres, grid, lists, remaining)))
-        crossing += crossings
+        crossing, touching = crossing + crossings, touching + touches
     columns = (np.concatenate(column) for column in zip(*visible, strict=True))
     blocked = int(np.count_nonzero(lists.blocker != NOBODY))
-    return DiscArcs(*columns), Work(len(lists.item), blocked, tested, crossing)
+    return DiscArcs(*columns), Work(len(lists.item), blocked, tested, crossing, touching)
 
 
 def pairs_on_lists(spheres: Spheres, lists: CellLists) -> tuple[Pairs, int]:
@@ -98,8 +99,8 @@ def _meetings(lists: CellLists) -> Iterator[tuple[Ints, Ints]]:
         yield lists.item[block][owner], lists.item[other]
 
 
-def _arcs_of_blocks(spheres: Spheres, lists: CellLists, pairs: Pairs) -> Iterator[tuple[DiscArcs, int]]:
-    """The arcs that the pairs leave of every disc on some list, in blocks of discs; and the crossing pairs."""
+def _arcs_of_blocks(spheres: Spheres, lists: CellLists, pairs: Pairs) -> Iterator[tuple[DiscArcs, int, int]]:
+    """The arcs that the pairs leave of every disc on some list, in blocks of discs; crossing and touching pairs."""
     listed = np.zeros(len(spheres.radius), dtype=bool)
     listed[lists.item] = True
     disc = np.flatnonzero(listed)
@@ -109,19 +110,19 @@ def _arcs_of_blocks(spheres: Spheres, lists: CellLists, pairs: Pairs) -> Iterato
         yield _remaining_arcs(spheres, disc[block], Pairs(pairs.far[rows], pairs.near[rows]))
 
 
-def _remaining_arcs(spheres: Spheres, disc: Ints, pairs: Pairs) -> tuple[DiscArcs, int]:
-    """The complement of the hidden arcs of some discs, and how many of the pairs cross."""
-    hidden, near, crossing = hidden_intervals(spheres, pairs)
+def _remaining_arcs(spheres: Spheres, disc: Ints, pairs: Pairs) -> tuple[DiscArcs, int, int]:
+    """The complement of the hidden arcs of some discs, and how many of the pairs cross and touch."""
+    hidden, near, crossing, touching = hidden_intervals(spheres, pairs)
     numbered = Intervals(np.searchsorted(disc, hidden.circle), hidden.start, hidden.sweep)
     free = gaps(numbered, len(disc))
     long = free.sweep > SLIVER
     near = np.append(near, -1)
     arcs = DiscArcs(disc[free.circle], free.start, free.sweep, near[free.before], near[free.after])
-    return arcs.take(long), crossing
+    return arcs.take(long), crossing, touching
 
 
-def hidden_intervals(spheres: Spheres, pairs: Pairs) -> tuple[Intervals, Ints, int]:
-    """Return the interval of each farther perimeter that the nearer disc hides, its disc, and the crossing pairs.
+def hidden_intervals(spheres: Spheres, pairs: Pairs) -> tuple[Intervals, Ints, int, int]:
+    """Return what the nearer disc hides of each farther perimeter, and that disc; crossing and touching pairs.
 
     With f and n the radii of the farther and the nearer disc and d the distance of their centres, the perimeters
     cross if |f − n| < d < f + n; the nearer disc then hides φ ± h, φ the direction of its centre, and by the half
@@ -135,13 +136,15 @@ def hidden_intervals(spheres: Spheres, pairs: Pairs) -> tuple[Intervals, Ints, i
     apart, beyond, within = far + near - distance, distance + near - far, distance + far - near
     crosses = (apart > touch) & (beyond > touch) & (within > touch)
     covered = (within <= touch) & (near >= far)
+    touches = np.minimum(np.abs(apart), np.minimum(np.abs(beyond), np.abs(within))) <= touch
 
     rows = np.flatnonzero(crosses | covered)
     with np.errstate(divide="ignore", invalid="ignore"):
         tangent = np.sqrt(apart[rows] * beyond[rows] / (within[rows] * (distance + far + near)[rows]))
     half = np.where(crosses[rows], 2.0 * np.arctan(tangent), np.pi)
     start = np.arctan2(y[rows], x[rows]) - half
-    return Intervals(pairs.far[rows], start, 2.0 * half), pairs.near[rows], int(np.count_nonzero(crosses))
+    hidden = Intervals(pairs.far[rows], start, 2.0 * half)
+    return hidden, pairs.near[rows], int(np.count_nonzero(crosses)), int(np.count_nonzero(touches))
 
 
 def _midpoint_hidden(spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscArcs) -> Bools:
