@@ -10,6 +10,7 @@ from molviz.errors import InputError
 
 COMMANDS = {  # name → module:object, imported when first used
     "draw": "molviz.cli.draw:draw_command",
+    "hidden-lines": "molviz.cli.hidden_lines:hidden_lines_command",
     "measure": "molviz.cli.measure:measure_command",
     "info": "molviz.cli.info:info_command",
 }

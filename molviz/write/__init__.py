@@ -35,9 +35,15 @@ def _pdf(picture: Picture) -> bytes:
     return write_pdf(picture)
 
 
+def _hpgl(picture: Picture) -> bytes:
+    from molviz.write.hpgl import write_hpgl
+
+    return write_hpgl(picture)
+
+
 # Each writer is imported when it is first used: no run needs all the packages behind them.
 WRITERS: dict[str, Callable[[Picture], bytes]] = {
-    ".svg": _svg, ".svgz": _svgz, ".ps": _ps, ".eps": _eps, ".pdf": _pdf,
+    ".svg": _svg, ".svgz": _svgz, ".ps": _ps, ".eps": _eps, ".pdf": _pdf, ".hpgl": _hpgl,
 }  # fmt: skip
 
 

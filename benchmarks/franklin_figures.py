@@ -1,0 +1,48 @@
+"""Figures 1 to 5 of Franklin (1980), drawn again: before and after the removal of hidden lines.
+
+    python benchmarks/franklin_figures.py [FOLDER]
+"""
+
+import sys
+from pathlib import Path
+
+from molviz.model.scenes import random_scene, text_scene
+from molviz.picture.disc_picture import DiscLook, disc_picture, whole_circles
+from molviz.picture.picture import Picture
+from molviz.pipeline.hidden_discs import hide_discs, picture_of
+from molviz.write import write
+
+FINE, PLAIN = DiscLook(outline=0.2), DiscLook(outline=0.4)
+
+
+def figures() -> dict[str, Picture]:
+    """The pictures by file name, with his captions as titles."""
+    gas = random_scene(10000, radius=0.0178)
+    perspective = random_scene(1000, radius=0.135, shrink=True)
+    letters = text_scene("CSE")
+    return {
+        "fig1": disc_picture(gas, whole_circles(10000), None, FINE, "Ten thousand random spheres, overlaid 10 deep"),
+        "fig2": picture_of(hide_discs(gas), FINE, title="The same 10,000 spheres with hidden lines removed"),
+        "fig3": disc_picture(
+            perspective, whole_circles(1000), None, PLAIN,
+            "One thousand random spheres overlaid 10 deep, in perspective",
+        ),
+        "fig4": picture_of(hide_discs(perspective), PLAIN, title="The same 1000 spheres with hidden lines removed"),
+        "fig5": picture_of(hide_discs(letters), PLAIN, title="Spheres spelling CSE with hidden lines removed"),
+        "fig5-filled": picture_of(hide_discs(letters), PLAIN, fill=True, title="The same with hidden surfaces removed"),
+    }  # fmt: skip
+
+
+def main() -> None:
+    """Write every figure as SVG and PostScript."""
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out/figures")
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, picture in figures().items():
+        for suffix in (".svg", ".ps"):
+            data = write(picture, suffix)
+            (folder / f"franklin-{name}{suffix}").write_bytes(data)
+            print(f"{folder}/franklin-{name}{suffix}  {len(data):,} bytes")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,175 @@
+"""Hidden lines of opaque discs from scene to file: Franklin's SPHERES (1980) and the statistics of his Fig. 8."""
+
+import json
+import math
+import time
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from molviz.errors import InputError
+from molviz.model.scenes import random_scene, text_scene
+from molviz.model.spheres import Spheres
+from molviz.picture.disc_picture import DiscLook, disc_picture
+from molviz.picture.picture import Picture
+from molviz.visibility.disc_grid import (
+    UNIT_SQUARE,
+    CellLists,
+    Grid,
+    Square,
+    bounding_square,
+    cell_lists,
+    depth_complexity,
+    franklin_count,
+)  # fmt: skip
+from molviz.visibility.disc_regions import DiscRegions, GeneralPositionError, displaced, visible_regions
+from molviz.visibility.discs import DiscArcs, Work, visible_arcs
+
+Statistics: TypeAlias = dict[str, int | float | dict[str, int]]
+
+DISPLACEMENTS = 8  # one does for nearly every scene, two for the rest
+
+LABELS = {  # his words, where he has them
+    "n": "Circles", "radius": "Max radius", "depth": "Depth complexity", "grid": "Grid resolution",
+    "cell_entries": "Circle entries on cell lists", "cells_blocked": "Cells with blocking circles",
+    "pairs_tested": "Pairs of circles tested for intersection", "pairs_intersecting": "Unique pairs that intersected",
+    "visible_whole": "Completely visible", "visible_in_arcs": "Partially visible with K arcs", "hidden":
+    "Completely hidden", "arcs": "Total visible arcs", "length_circumferences":
+    "Total length of all visible arcs (circles)", "seconds": "Time (seconds)",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class HiddenDiscs:
+    """A scene without its hidden lines; ``lists`` are kept for the regions."""
+
+    spheres: Spheres
+    grid: Grid
+    lists: CellLists
+    arcs: DiscArcs
+    work: Work
+    seconds: float
+
+    def visible(self) -> int:
+        """Return the number of spheres with some of their perimeter visible."""
+        return len(np.unique(self.arcs.circle))
+
+    def statistics(self) -> Statistics:
+        """Return the statistics by name, in the order of his Fig. 8."""
+        count = len(self.spheres.radius)
+        whole = int(np.count_nonzero(self.arcs.before < 0))
+        pieces = np.bincount(np.bincount(self.arcs.circle[self.arcs.before >= 0], minlength=count))
+        return {
+            "n": count,
+            "radius": float(self.spheres.radius.max()),
+            "depth": depth_complexity(self.spheres.radius, self.grid.square),
+            "grid": self.grid.across,
+            "cell_entries": self.work.cell_entries,
+            "cells_blocked": self.work.cells_blocked,
+            "pairs_tested": self.work.pairs_tested,
+            "pairs_intersecting": self.work.pairs_intersecting,
+            "visible_whole": whole,
+            "visible_in_arcs": {str(k): int(pieces[k]) for k in range(1, len(pieces))},
+            "hidden": int(pieces[0]) - whole,
+            "arcs": len(self.arcs.circle),
+            "length_circumferences": float(self.arcs.sweep.sum()) / (2.0 * math.pi),
+            "seconds": self.seconds,
+        }
+
+
+def random_discs(
+    count: int, *, depth: float | None, radius: float | None, seed: int | None, shrink: bool, across: int | None
+) -> HiddenDiscs:
+    """Return Franklin's random scene without its hidden lines, its grid over the unit square."""
+    scene = random_scene(count, depth=depth, radius=radius, seed=seed, shrink=shrink)
+    return hide_discs(scene, UNIT_SQUARE, across)
+
+
+def lettered_discs(text: str, *, shrink: bool, across: int | None) -> HiddenDiscs:
+    """Return a word spelt in layers of spheres without its hidden lines."""
+    return hide_discs(text_scene(text, shrink=shrink), across=across)
+
+
+def hide_discs(spheres: Spheres, square: Square | None = None, across: int | None = None) -> HiddenDiscs:
+    """Remove the hidden lines of n ≥ 1 discs; z of the spheres is depth, larger is farther.
+
+    ``square`` is what the grid covers, by default the bounding square; ``across`` its cells along one side, by
+    default those of Franklin's formula. Raises ``InputError`` where there is nothing to draw.
+    """
+    if not len(spheres.radius):
+        raise InputError("no spheres, expected at least one")
+    begin = time.perf_counter()
+    square = square or bounding_square(spheres)
+    grid = Grid(square, across or franklin_count(spheres.radius, square))
+    lists = cell_lists(spheres, grid)
+    arcs, work = visible_arcs(spheres, grid, lists)
+    return HiddenDiscs(spheres, grid, lists, arcs, work, time.perf_counter() - begin)
+
+
+def regions_of(scene: HiddenDiscs) -> DiscRegions:
+    """Return the visible regions; those of a displaced copy if the scene is not in general position.
+
+    Raises ``GeneralPositionError`` if displacing does not help.
+    """
+    for attempt in range(DISPLACEMENTS):
+        try:
+            return _regions(scene)
+        except GeneralPositionError:
+            scene = hide_discs(displaced(scene.spheres, seed=attempt), across=scene.grid.across)
+    return _regions(scene)
+
+
+def _regions(scene: HiddenDiscs) -> DiscRegions:
+    if scene.work.pairs_touching:
+        raise GeneralPositionError
+    return visible_regions(scene.spheres, scene.grid, scene.lists, scene.arcs)
+
+
+def picture_of(scene: HiddenDiscs, look: DiscLook, fill: bool = False, title: str = "") -> Picture:
+    """Return the scene's visible arcs on a page, over its visible regions if ``fill`` is wanted."""
+    return disc_picture(scene.spheres, scene.arcs, regions_of(scene) if fill else None, look, title)
+
+
+def to_bytes(picture: Picture, suffix: str, plotter: str = "", paper: str = "") -> bytes:
+    """Return the picture in the format of a suffix; a plotter and its paper matter to ``".hpgl"`` alone."""
+    from molviz import write
+
+    if suffix == ".hpgl":
+        from molviz.write import hpgl
+
+        return hpgl.write_hpgl(picture, hpgl.plotter(plotter, paper))
+    if suffix not in write.WRITERS:
+        raise InputError(f"no format is called {suffix!r}, expected .json or one of {', '.join(write.WRITERS)}")
+    return write.write(picture, suffix)
+
+
+def drawn(scene: HiddenDiscs, suffix: str, look: DiscLook, fill: bool, plotter: str = "", paper: str = "") -> bytes:
+    """Return the scene as a file of the format that a suffix names."""
+    if suffix == ".json":
+        return to_json(scene)
+    return to_bytes(picture_of(scene, look, fill), suffix, plotter, paper)
+
+
+def to_json(scene: HiddenDiscs) -> bytes:
+    """Return circles, arcs and statistics as JSON; without the seconds, so that a scene has one file.
+
+    Lists of finite numbers print in Python as in JSON, several times faster than the encoder writes them.
+    """
+    circles = np.column_stack([scene.spheres.center, scene.spheres.radius]).tolist()
+    columns = (column.tolist() for column in (scene.arcs.circle, scene.arcs.start, scene.arcs.sweep))
+    arcs = [list(row) for row in zip(*columns, strict=True)]
+    statistics = {name: value for name, value in scene.statistics().items() if name != "seconds"}
+    return f'{{"circles": {circles}, "arcs": {arcs}, "statistics": {json.dumps(statistics)}}}\n'.encode("ascii")
+
+
+def statistics_table(statistics: Statistics) -> str:
+    """Return the statistics as a table like his Fig. 8."""
+    width = max(len(label) for label in LABELS.values()) + 2
+    return "\n".join(f"{LABELS[name]:>{width}} = {_cell(value)}" for name, value in statistics.items())
+
+
+def _cell(value: int | float | dict[str, int]) -> str:
+    if isinstance(value, dict):
+        return "  ".join(f"{k}: {count}" for k, count in value.items()) or "none"
+    return str(value) if isinstance(value, int) else f"{value:.6g}"

@@ -1,0 +1,125 @@
+"""``hidden-lines`` from scene to file."""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+from molviz.cli import main
+from molviz.picture.disc_picture import DiscLook, whole_circles
+from molviz.pipeline.hidden_discs import LABELS, hide_discs, picture_of, random_discs
+from tests.render import needs_ghostscript, render_ps, render_svg
+from tests.test_discs import scene_of
+
+NAMES = [
+    "n", "radius", "depth", "grid", "cell_entries", "cells_blocked", "pairs_tested", "pairs_intersecting",
+    "visible_whole", "visible_in_arcs", "hidden", "arcs", "length_circumferences", "seconds",
+]  # fmt: skip
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(main, ["hidden-lines", *arguments])
+
+
+def test_statistics_add_up() -> None:
+    answer = json.loads(run("--random", "3000", "--json").stdout)
+    pieces = {int(k): count for k, count in answer["visible_in_arcs"].items()}
+    assert list(answer) == NAMES == list(LABELS)
+    assert answer["visible_whole"] + sum(pieces.values()) + answer["hidden"] == answer["n"] == 3000
+    assert answer["visible_whole"] + sum(k * count for k, count in pieces.items()) == answer["arcs"]
+    assert answer["depth"] == pytest.approx(math.pi * 3000 * answer["radius"] ** 2) == pytest.approx(10)
+
+
+def test_without_an_output_the_table_is_printed() -> None:
+    result = run("--random", "200", "--radius", "0.05", "--grid", "30")
+    assert result.exit_code == 0
+    assert [line.split(" = ")[0].strip() for line in result.stdout.splitlines()] == list(LABELS.values())
+    assert "Grid resolution = 30" in result.stdout
+
+
+def test_json_is_the_whole_answer(tmp_path: Path) -> None:
+    assert run("--random", "300", "--seed", "2", "-o", str(tmp_path / "x.json")).exit_code == 0
+    answer = json.loads((tmp_path / "x.json").read_text())
+    circles = np.array(answer["circles"])
+    assert np.array_equal(circles[:, :3], random_discs(
+        300, depth=None, radius=None, seed=2, shrink=False, across=None).spheres.center)  # fmt: skip
+    arcs = hide_discs(scene_of(circles.tolist())).arcs
+    assert np.allclose(np.array(answer["arcs"]), np.column_stack([arcs.circle, arcs.start, arcs.sweep]), atol=1e-9)
+    assert answer["statistics"]["arcs"] == len(answer["arcs"])
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".ps", ".eps", ".pdf", ".hpgl", ".json"])
+def test_the_same_input_gives_the_same_bytes(tmp_path: Path, suffix: str) -> None:
+    names = [tmp_path / f"{k}{suffix}" for k in "ab"]
+    for name in names:
+        result = run("--text", "CSE", "--fill", "-o", str(name))
+        assert result.exit_code == 0 and "1840 spheres" in result.stderr
+    assert names[0].read_bytes() == names[1].read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "words"),
+    [
+        ([], 2, "--random"),
+        (["--random", "5", "--text", "A"], 2, "--random"),
+        (["--random", "0"], 2, "0 is not in the range"),
+        (["--random", "5", "--radius", "0.7"], 1, "expected at most 0.5"),
+        (["--random", "50", "--radius", "0.1", "--depth", "2"], 1, "expected one of them"),
+        (["--text", "*", "-o", "x.svg"], 1, "expected A to Z"),
+        (["--text", "A", "-o", "x.tiff"], 1, "expected .json or one of .svg"),
+        (["--text", "A", "-o", "/dev/null/x.svg"], 1, "/dev/null/x.svg"),
+        (["--text", "A", "-o", "x.hpgl", "--plotter", "none"], 1, "expected one of hp7440a"),
+    ],
+)
+def test_what_cannot_be_done_is_said(arguments: list[str], code: int, words: str) -> None:
+    result = run(*arguments)
+    assert result.exit_code == code and words in result.stderr
+    assert code == 2 or result.stderr.startswith("molviz: ")
+
+
+def test_regions_are_painted_in_front_of_what_they_hide() -> None:
+    """Fills without lines, as pixels, against the foremost disc at each pixel's centre."""
+    from molviz.write import write
+
+    scene = random_discs(60, depth=3, radius=None, seed=1, shrink=False, across=None)
+    look = DiscLook(width=300, margin=0, outline=0)
+    picture = picture_of(scene, look, fill=True)
+    pixels = render_svg(write(picture, ".svg"), 300)
+    order = np.argsort(scene.spheres.center[:, 2])
+    low = (scene.spheres.center[:, :2] - scene.spheres.radius[:, None]).min(axis=0)
+    high = (scene.spheres.center[:, :2] + scene.spheres.radius[:, None]).max(axis=0)
+    unit = (high[0] - low[0]) / 300
+    height = len(pixels)
+    x, y = np.meshgrid(low[0] + (np.arange(300) + 0.5) * unit, high[1] - (np.arange(height) + 0.5) * unit)
+    layer = picture.layers[0]
+    shades = {int(mark.id[1:]): color for mark, color in zip(layer.mark, layer.color, strict=True)}
+    wanted = np.zeros((height, 300, 4))
+    for disc in order[::-1]:
+        cx, cy, _ = scene.spheres.center[disc]
+        inside = np.hypot(x - cx, y - cy) < scene.spheres.radius[disc]
+        wanted[inside] = (*shades.get(int(disc), (0, 0, 0)), 255)
+    assert np.mean(np.any(pixels != wanted, axis=2)) < 0.03  # along the edges, which are spread by 0.125 points
+
+
+@needs_ghostscript
+def test_postscript_draws_the_visible_arcs() -> None:
+    from molviz.write import write
+
+    scene = hide_discs(scene_of([(0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 1.0, 1.0)]))
+    picture = picture_of(scene, DiscLook(width=300, margin=10, outline=2))
+    dark = render_ps(write(picture, ".ps"), 72).sum(axis=2) < 384
+    arcs = picture.layers[0].paths.arcs
+    row = np.repeat(np.arange(2), 400)
+    points = arcs.take(row).at(arcs.start[row] + arcs.sweep[row] * np.tile(np.linspace(0, 1, 400), 2))
+    down, across = np.nonzero(dark)
+    pixels = np.column_stack([across + 0.5, len(dark) - down - 0.5])
+    gap = np.hypot(*(pixels[:, None] - points).transpose(2, 0, 1))
+    assert gap.min(axis=1).max() < 2.5 and gap.min(axis=0).max() < 1.0
+
+
+def test_before_removal_every_circle_is_whole() -> None:
+    arcs = whole_circles(4)
+    assert arcs.sweep.tolist() == [2 * math.pi] * 4 and arcs.circle.tolist() == [0, 1, 2, 3]
