@@ -10,7 +10,7 @@ from molviz.model.spheres import Spheres
 from molviz.picture.compose import Look
 from molviz.picture.page import Page
 from molviz.picture.style import load_style
-from molviz.pipeline.draw import Eye, draw, view_of
+from molviz.pipeline.draw import Eye, Form, draw, view_of
 from molviz.pipeline.inputs import Loaded, Wanted, load
 from tests.render import needs_ghostscript, render_ps, render_svg
 from tests.zbuffer import interior, mask_labels, zbuffer
@@ -26,7 +26,7 @@ def mask(loaded: Loaded, eye: Eye, suffix: str, method: str) -> tuple[bytes, Sph
     low, high = bounds(seen)
     scale = SIZE / float((high - low).max())
     look = Look(load_style("default"), "index", outline=0.0, crease=0.0, page=Page(scale=scale))
-    return draw(loaded, suffix, look, eye, method, False, lambda stage: None).data, seen, scale
+    return draw(loaded, Form(suffix), look, eye, method, False, lambda stage: None).data, seen, scale
 
 
 def bounds(spheres: Spheres) -> tuple[np.ndarray, np.ndarray]:

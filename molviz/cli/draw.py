@@ -21,7 +21,7 @@ from molviz.picture.coloring import CONTINUOUS, SCHEMES
 from molviz.picture.compose import Look
 from molviz.picture.page import Page
 from molviz.picture.style import STYLES, load_style
-from molviz.pipeline.draw import Drawing, Eye, draw, suffixes
+from molviz.pipeline.draw import Drawing, Eye, Form, draw, suffixes
 from molviz.pipeline.inputs import Wanted
 from molviz.pipeline.outputs import save, target_of
 
@@ -30,20 +30,28 @@ STAGES = 4  # reading, map, picture, writing
 output_options = applied(
     click.option("-o", "--output", metavar="FILE", help="Its suffix is the format; many: a folder or {stem}."),
     click.option("--to", metavar="FORMAT", help="Format (svg, ps, …) where the output is - or a folder."),
+)
+drawing_options = applied(
     click.option("--method", type=click.Choice(["visible", "painter"]), default="visible", show_default=True),
     click.option("--check", is_flag=True, help="Verify the invariants of the visibility map first."),
+    click.option("--style", default="default", show_default=True, metavar="NAME|FILE.toml", help=f"One of {STYLES}."),
+    click.option("--color-by", type=click.Choice([*SCHEMES, *CONTINUOUS]), default="element", show_default=True),
+    click.option("--legend", is_flag=True, help="A legend for colours by bfactor or exposure."),
+    eye_options,
+    page_options,
+)
+plotter_options = applied(
+    click.option("--plotter", default="", metavar="MODEL", help="Plotter for .hpgl (default hp7475a)."),
+    click.option("--paper", default="", metavar="SIZE", help="Paper in the plotter (default a4)."),
 )
 
 
 @click.command("draw")
 @click.argument("inputs", nargs=-1, required=True, metavar="INPUT...")
 @output_options
-@click.option("--style", default="default", show_default=True, metavar="NAME|FILE.toml", help=f"One of {STYLES}.")
-@click.option("--color-by", type=click.Choice([*SCHEMES, *CONTINUOUS]), default="element", show_default=True)
-@click.option("--legend", is_flag=True, help="A legend for colours by bfactor or exposure.")
+@drawing_options
 @click.option("--fill", type=click.Choice(["flat", "none"]), default="flat", show_default=True)
-@eye_options
-@page_options
+@plotter_options
 @input_options
 def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
     """Draw molecules as exact vector pictures.
@@ -60,19 +68,19 @@ def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
 def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     """Draw every input with the options of ``draw``."""
     wanted, look, eye = wanted_from(options), look_from(options), eye_from(options)
-    suffix = _suffix(options["output"], options["to"])
+    form = Form(suffix_of(options["output"], options["to"]), options["plotter"], options["paper"])
     output = options["output"] or "-"
-    if len(inputs) > 1 and len({target_of(source, output, suffix) for source in inputs}) < len(inputs):
+    if len(inputs) > 1 and len({target_of(source, output, form.suffix) for source in inputs}) < len(inputs):
         raise click.UsageError("several inputs need several outputs: -o FOLDER/ or -o 'FOLDER/{stem}.svg'")
 
     def one(source: str) -> None:
-        _draw_one(source, target_of(source, output, suffix), suffix, wanted, look, eye, options)
+        _draw_one(source, target_of(source, output, form.suffix), form, wanted, look, eye, options)
 
     for_each(inputs, one)
 
 
 def _draw_one(
-    source: str, target: str, suffix: str, wanted: Wanted, look: Look, eye: Eye, options: dict[str, Any]
+    source: str, target: str, form: Form, wanted: Wanted, look: Look, eye: Eye, options: dict[str, Any]
 ) -> None:
     began, progress = time.monotonic(), Progress(STAGES)
     progress("reading")
@@ -80,7 +88,7 @@ def _draw_one(
     if len(loaded) > 1:
         raise InputError(f"has {len(loaded)} models, and a picture shows one; expected --model NUMBER", source)
     try:
-        drawing = draw(loaded[0], suffix, look, eye, options["method"], options["check"], progress)
+        drawing = draw(loaded[0], form, look, eye, options["method"], options["check"], progress)
     finally:
         progress.close()
     save(target, drawing.data)
@@ -95,8 +103,8 @@ def _summary(source: str, target: str, drawing: Drawing, seconds: float) -> str:
     )
 
 
-def _suffix(output: str | None, to: str | None) -> str:
-    """The format asked for: by --to, else by the output's suffix."""
+def suffix_of(output: str | None, to: str | None) -> str:
+    """Return the format asked for: by --to, else by the output's suffix."""
     known = suffixes()
     suffix = f".{to.removeprefix('.')}" if to else PurePath(output or "").suffix
     if suffix.lower() in known:

@@ -1,20 +1,41 @@
-"""``molviz hidden-lines``: exact visible arcs, and nothing but lines."""
+"""``molviz hidden-lines``: exact visible arcs, and nothing but lines unless asked for."""
 
 import json
 import time
-from pathlib import PurePath
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import click
 
-from molviz.cli.options import POSITIVE, applied
+from molviz.cli.batch import for_each
+from molviz.cli.draw import (
+    drawing_options,
+    eye_from,
+    output_options,
+    plotter_options,
+    run_drawings,
+    suffix_of,
+)
+from molviz.cli.options import POSITIVE, applied, load_and_warn, part_options, wanted_from
 from molviz.cli.progress import Progress
 from molviz.picture.disc_picture import DiscLook
-from molviz.pipeline.hidden_discs import HiddenDiscs, drawn, lettered_discs, random_discs, statistics_table
-from molviz.pipeline.outputs import save
+from molviz.pipeline.draw import Eye
+from molviz.pipeline.hidden_discs import (
+    HiddenDiscs,
+    drawn,
+    lettered_discs,
+    molecule_discs,
+    random_discs,
+    statistics_table,
+)
+from molviz.pipeline.inputs import Wanted
+from molviz.pipeline.outputs import save, target_of
 
 STAGES = 2  # hidden lines, writing
 LARGEST_GRID = 16384  # cells a side: more would not fit into memory
+KINDS = ("fused", "discs")  # fused spheres, or opaque discs ordered by their centres alone
+USUAL_LINE = 0.5  # points
 
 scene_options = applied(
     click.option("--random", "count", type=click.IntRange(1), metavar="N", help="Franklin's N random spheres."),
@@ -25,47 +46,83 @@ scene_options = applied(
     click.option("--shrink", is_flag=True, help="Smaller spheres farther back: his perspective."),
     click.option("--grid", type=click.IntRange(1, LARGEST_GRID), metavar="G", help="Cells a side (default: his)."),
 )
-plotter_options = applied(
-    click.option("--plotter", default="", metavar="MODEL", help="Plotter for .hpgl (default hp7475a)."),
-    click.option("--paper", default="", metavar="SIZE", help="Paper in the plotter (default a4)."),
+model_options = applied(
+    click.option("--model", "models", multiple=True, metavar="fused|discs|N", help="Of a file: how, and which model."),
+    click.option("--frame", metavar="N", help="Model or frame by number."),
 )
 
 
 @click.command("hidden-lines")
+@click.argument("inputs", nargs=-1, metavar="[INPUT]...")
 @scene_options
-@plotter_options
-@click.option("--fill", is_flag=True, help="Paint the visible region of every disc too.")
-@click.option("--outline", type=click.FloatRange(0.0), default=0.5, show_default=True, help="Line width in points.")
+@output_options
+@click.option("--fill", is_flag=False, flag_value="flat", default="none", help="Paint the visible regions too.")
 @click.option("--json", "as_json", is_flag=True, help="Print the statistics as one JSON object.")
-@click.option("--quiet", is_flag=True, help="No summary line.")
-@click.option("--to", metavar="FORMAT", help="Format (svg, ps, …) where the output is -.")
-@click.option("-o", "--output", metavar="FILE", help="Its suffix is the format: .ps .eps .svg .pdf .hpgl .json.")
-def hidden_lines_command(**options: Any) -> None:
-    """Remove the hidden lines of spheres, exactly.
+@drawing_options
+@plotter_options
+@model_options
+@part_options
+def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
+    """Remove the hidden lines of spheres, exactly. Formats: .ps .eps .svg .svgz .pdf .hpgl .json.
 
     \b
     Examples:
-      molviz hidden-lines --random 10000             the statistics of Franklin's Fig. 8
-      molviz hidden-lines --random 1000 -o gas.svg   the drawing
-      molviz hidden-lines --text CSE -o cse.hpgl     the same for a pen plotter
+      molviz hidden-lines caffeine.xyz -o caffeine.svg       a molecule as fused spheres
+      molviz hidden-lines 1a8o.pdb --model discs -o it.ps    its atoms as discs
+      molviz hidden-lines --random 10000                     the statistics of Franklin's Fig. 8
+      molviz hidden-lines --random 1000 -o gas.svg           the drawing
+      molviz hidden-lines --text CSE -o cse.hpgl             the same for a pen plotter
     """
-    if (options["count"] is None) == (options["text"] is None):
-        raise click.UsageError("nothing to draw, or two things; expected one of --random and --text")
+    if sum([bool(inputs), options["count"] is not None, options["text"] is not None]) != 1:
+        raise click.UsageError("nothing to draw, or two things; expected INPUT, --random or --text")
+    if options["fill"] not in ("flat", "none"):
+        raise click.UsageError(f"no fill {options['fill']!r}; expected flat or none")
+    kind = _kind(options)
+    if not inputs:
+        _discs(options["output"], partial(_scene, options), options)
+    elif kind == "discs":
+        _molecules_as_discs(inputs, options)
+    else:
+        run_drawings(inputs, options)
+
+
+def _kind(options: dict[str, Any]) -> str:
+    """Take how a molecule is to be drawn out of the options, and leave the number of its model there."""
+    models = options.pop("models")
+    kinds = [word for word in models if word in KINDS]
+    numbers = [word for word in (*models, options.pop("frame")) if word and word not in KINDS]
+    options["model"] = numbers[-1] if numbers else "1"
+    return kinds[-1] if kinds else KINDS[0]
+
+
+def _molecules_as_discs(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
+    wanted, eye, output = wanted_from(options), eye_from(options), options["output"]
+    suffix = suffix_of(output, options["to"]) if output else ""
+
+    def one(source: str) -> None:
+        target = target_of(source, output, suffix) if output else None
+        _discs(target, partial(_molecule, source, wanted, eye, options), options)
+
+    for_each(inputs, one)
+
+
+def _discs(target: str | None, scene_of: Callable[[], HiddenDiscs], options: dict[str, Any]) -> None:
+    """Hide the lines of a scene of discs; draw it, and tell its statistics where asked for or nothing is drawn."""
     began, progress = time.monotonic(), Progress(STAGES)
     progress("hidden lines")
-    scene = _scene(options)
-    if options["output"]:
+    scene = scene_of()
+    if target:
         progress("writing")
-        suffix = f".{options['to']}" if options["to"] else PurePath(options["output"]).suffix.lower()
-        look = DiscLook(outline=options["outline"])
-        data = drawn(scene, suffix, look, options["fill"], options["plotter"], options["paper"])
+        look = DiscLook(outline=USUAL_LINE if options["outline"] is None else options["outline"])
+        suffix = suffix_of(target, options["to"])
+        data = drawn(scene, suffix, look, options["fill"] == "flat", options["plotter"], options["paper"])
         progress.close()
-        save(options["output"], data)
+        save(target, data)
         if not options["quiet"]:
-            click.echo(_summary(options["output"], scene, len(data), time.monotonic() - began), err=True)
+            click.echo(_summary(target, scene, len(data), time.monotonic() - began), err=True)
     if options["as_json"]:
         click.echo(json.dumps(scene.statistics()))
-    elif not options["output"]:
+    elif not target:
         click.echo(statistics_table(scene.statistics()))
 
 
@@ -76,6 +133,11 @@ def _scene(options: dict[str, Any]) -> HiddenDiscs:
         return lettered_discs(options["text"], shrink=shrink, across=across)
     depth, radius, seed = options["depth"], options["radius"], options["seed"]
     return random_discs(options["count"], depth=depth, radius=radius, seed=seed, shrink=shrink, across=across)
+
+
+def _molecule(source: str, wanted: Wanted, eye: Eye, options: dict[str, Any]) -> HiddenDiscs:
+    loaded = load_and_warn(source, wanted, options["quiet"], options["strict"])
+    return molecule_discs(loaded[0], eye, options["grid"])
 
 
 def _summary(target: str, scene: HiddenDiscs, size: int, seconds: float) -> str:

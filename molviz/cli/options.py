@@ -63,8 +63,8 @@ def applied(*options: Decorator) -> Decorator:
     return decorate
 
 
-input_options = applied(
-    click.option("--model", "--frame", "model", default="1", show_default=True, help="Model or frame by number."),
+model_option = click.option("--model", "--frame", "model", default="1", show_default=True, help="Model or frame.")
+part_options = applied(
     click.option("--assembly", metavar="ID", help="Biological assembly, from the file's own operators."),
     click.option("--select", metavar="EXPR", help="Keep part of it, e.g. 'chain A and not water'."),
     click.option("--no-water", is_flag=True, help="Leave out water."),
@@ -77,6 +77,7 @@ input_options = applied(
     click.option("--quiet", is_flag=True, help="No summary line and no warnings."),
     click.option("--strict", is_flag=True, help="Warnings become errors."),
 )
+input_options = applied(model_option, part_options)
 eye_options = applied(
     click.option(
         "--orient",

@@ -14,12 +14,13 @@ from molviz.model.spheres import Spheres
 from molviz.picture.compose import Drawn, Look, picture_of_map, picture_of_pieces, slivers
 from molviz.picture.picture import Picture
 from molviz.pipeline.inputs import Loaded
+from molviz.pipeline.outputs import encoded
 from molviz.visibility.checks import check_map
 from molviz.visibility.map import BACKGROUND
 from molviz.visibility.map_json import map_as_data
 from molviz.visibility.scene import extent, in_one_view, map_of_scene, pieces_of_scene
 from molviz.visibility.view import View, file_axes, principal_axes
-from molviz.write import WRITERS, write
+from molviz.write import WRITERS
 
 JSON = ".json"
 WATER_RADIUS = 1.4  # ångström, Lee & Richards 1971
@@ -35,6 +36,15 @@ class Eye:
     distance: float | None = None  # ångström from the centre, None for a parallel view
 
 
+@dataclass(frozen=True)
+class Form:
+    """The format of a drawing by its suffix; plotter and paper for HPGL, the usual ones where empty."""
+
+    suffix: str
+    plotter: str = ""
+    paper: str = ""
+
+
 class Drawing(NamedTuple):
     """The bytes of a drawing and what its summary line tells."""
 
@@ -44,8 +54,8 @@ class Drawing(NamedTuple):
     arcs: int
 
 
-def draw(loaded: Loaded, suffix: str, look: Look, eye: Eye, method: str, check: bool, report: Report) -> Drawing:
-    """Return one model drawn in the format of ``suffix``; ``method`` is ``visible`` or ``painter``.
+def draw(loaded: Loaded, form: Form, look: Look, eye: Eye, method: str, check: bool, report: Report) -> Drawing:
+    """Return one model drawn; ``method`` is ``visible`` or ``painter``.
 
     ``check`` verifies the visibility map and raises InputError where an invariant does not hold.
     """
@@ -53,39 +63,39 @@ def draw(loaded: Loaded, suffix: str, look: Look, eye: Eye, method: str, check: 
     low, high = extent(loaded.spheres, view)
     drawn = Drawn(loaded.molecule, np.arange(len(loaded.molecule)), low, high, color_values(loaded, look.color_by))
     if method == "painter":
-        if suffix == JSON:
+        if form.suffix == JSON:
             raise InputError("the visibility map is written as JSON; use --method visible", loaded.source)
-        return _painted(loaded, suffix, look, view, drawn, report)
-    return _mapped(loaded, suffix, look, view, drawn, check, report)
+        return _painted(loaded, form, look, view, drawn, report)
+    return _mapped(loaded, form, look, view, drawn, check, report)
 
 
 def _mapped(
-    loaded: Loaded, suffix: str, look: Look, view: View, drawn: Drawn, check: bool, report: Report
+    loaded: Loaded, form: Form, look: Look, view: View, drawn: Drawn, check: bool, report: Report
 ) -> Drawing:
     report("visibility map")
     found, atom = in_one_view(loaded.spheres, view, map_of_scene)
     if check:
         check_map(found, view)
     visible = int(np.sum(np.unique(found.loops.face[~slivers(found)]) != BACKGROUND))
-    if suffix == JSON:
+    if form.suffix == JSON:
         data = json.dumps(map_as_data(found, loaded.molecule.row[atom], view), separators=(",", ":")).encode() + b"\n"
     else:
         report("picture")
-        data = _written(picture_of_map(found, replace(drawn, atom=atom), look), suffix, report)
+        data = _written(picture_of_map(found, replace(drawn, atom=atom), look), form, report)
     return Drawing(data, loaded.read, visible, len(found.start))
 
 
-def _painted(loaded: Loaded, suffix: str, look: Look, view: View, drawn: Drawn, report: Report) -> Drawing:
+def _painted(loaded: Loaded, form: Form, look: Look, view: View, drawn: Drawn, report: Report) -> Drawing:
     report("painter's pieces")
     found, atom = in_one_view(loaded.spheres, view, pieces_of_scene)
     report("picture")
     picture = picture_of_pieces(found, replace(drawn, atom=atom), look)
-    return Drawing(_written(picture, suffix, report), loaded.read, len(found.order), len(found.circle))
+    return Drawing(_written(picture, form, report), loaded.read, len(found.order), len(found.circle))
 
 
-def _written(picture: Picture, suffix: str, report: Report) -> bytes:
+def _written(picture: Picture, form: Form, report: Report) -> bytes:
     report("writing")
-    return write(picture, suffix)
+    return encoded(picture, form.suffix, form.plotter, form.paper)
 
 
 def color_values(loaded: Loaded, scheme: str) -> Floats:

@@ -13,6 +13,9 @@ from molviz.model.scenes import random_scene, text_scene
 from molviz.model.spheres import Spheres
 from molviz.picture.disc_picture import DiscLook, disc_picture
 from molviz.picture.picture import Picture
+from molviz.pipeline.draw import Eye, view_of
+from molviz.pipeline.inputs import Loaded
+from molviz.pipeline.outputs import encoded
 from molviz.visibility.disc_grid import (
     UNIT_SQUARE,
     CellLists,
@@ -91,6 +94,17 @@ def lettered_discs(text: str, *, shrink: bool, across: int | None) -> HiddenDisc
     return hide_discs(text_scene(text, shrink=shrink), across=across)
 
 
+def molecule_discs(loaded: Loaded, eye: Eye, across: int | None) -> HiddenDiscs:
+    """Return a molecule's atoms as opaque discs, ordered by their centres alone, without their hidden lines.
+
+    Raises InputError for a central view, whose outlines are no circles.
+    """
+    if eye.distance is not None:
+        raise InputError("discs are drawn in parallel projection; expected no --perspective", loaded.source)
+    seen = view_of(loaded, eye).of(loaded.spheres)
+    return hide_discs(Spheres(seen.center * [1.0, 1.0, -1.0], seen.radius), across=across)
+
+
 def hide_discs(spheres: Spheres, square: Square | None = None, across: int | None = None) -> HiddenDiscs:
     """Remove the hidden lines of n ≥ 1 discs; z of the spheres is depth, larger is farther.
 
@@ -131,35 +145,22 @@ def picture_of(scene: HiddenDiscs, look: DiscLook, fill: bool = False, title: st
     return disc_picture(scene.spheres, scene.arcs, regions_of(scene) if fill else None, look, title)
 
 
-def to_bytes(picture: Picture, suffix: str, plotter: str = "", paper: str = "") -> bytes:
-    """Return the picture in the format of a suffix; a plotter and its paper matter to ``".hpgl"`` alone."""
-    from molviz import write
-
-    if suffix == ".hpgl":
-        from molviz.write import hpgl
-
-        return hpgl.write_hpgl(picture, hpgl.plotter(plotter, paper))
-    if suffix not in write.WRITERS:
-        raise InputError(f"no format is called {suffix!r}, expected .json or one of {', '.join(write.WRITERS)}")
-    return write.write(picture, suffix)
-
-
 def drawn(scene: HiddenDiscs, suffix: str, look: DiscLook, fill: bool, plotter: str = "", paper: str = "") -> bytes:
     """Return the scene as a file of the format that a suffix names."""
     if suffix == ".json":
         return to_json(scene)
-    return to_bytes(picture_of(scene, look, fill), suffix, plotter, paper)
+    return encoded(picture_of(scene, look, fill), suffix, plotter, paper)
 
 
 def to_json(scene: HiddenDiscs) -> bytes:
-    """Return circles, arcs and statistics as JSON; without the seconds, so that a scene has one file.
+    """Return circles, arcs and statistics as JSON; its seconds are null, so that a scene has one file.
 
     Lists of finite numbers print in Python as in JSON, several times faster than the encoder writes them.
     """
     circles = np.column_stack([scene.spheres.center, scene.spheres.radius]).tolist()
     columns = (column.tolist() for column in (scene.arcs.circle, scene.arcs.start, scene.arcs.sweep))
     arcs = [list(row) for row in zip(*columns, strict=True)]
-    statistics = {name: value for name, value in scene.statistics().items() if name != "seconds"}
+    statistics = scene.statistics() | {"seconds": None}
     return f'{{"circles": {circles}, "arcs": {arcs}, "statistics": {json.dumps(statistics)}}}\n'.encode("ascii")
 
 

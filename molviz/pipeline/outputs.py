@@ -6,6 +6,22 @@ import tempfile
 from pathlib import Path, PurePath
 
 from molviz.errors import InputError
+from molviz.picture.picture import Picture
+from molviz.write import WRITERS, write
+
+
+def encoded(picture: Picture, suffix: str, plotter: str = "", paper: str = "") -> bytes:
+    """Return the picture in the format of a suffix; a plotter and its paper matter to ``".hpgl"`` alone.
+
+    Raises InputError for a suffix, plotter or paper that nobody knows.
+    """
+    if suffix == ".hpgl":
+        from molviz.write import hpgl
+
+        return hpgl.write_hpgl(picture, hpgl.plotter(plotter, paper))
+    if suffix not in WRITERS:
+        raise InputError(f"no format is called {suffix!r}; expected .json or one of {', '.join(WRITERS)}")
+    return write(picture, suffix)
 
 
 def stem_of(source: str) -> str:

@@ -44,7 +44,9 @@ def write_pdf(picture: Picture) -> bytes:
 def page(pdf: pydyf.PDF, picture: Picture, properties: pydyf.Dictionary, content: pydyf.Stream) -> pydyf.Dictionary:
     """Return the page object."""
     box = pydyf.Array([0, 0, number(picture.width, PLACES), number(picture.height, PLACES)])
-    font = pydyf.Dictionary({"Type": "/Font", "Subtype": "/Type1", "BaseFont": "/Helvetica", "Encoding": "/WinAnsiEncoding"})
+    font = pydyf.Dictionary(
+        {"Type": "/Font", "Subtype": "/Type1", "BaseFont": "/Helvetica", "Encoding": "/WinAnsiEncoding"}
+    )
     resources = pydyf.Dictionary({"Properties": properties, "Font": pydyf.Dictionary({"F": font})})
     return pydyf.Dictionary(
         {
