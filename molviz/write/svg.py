@@ -16,6 +16,7 @@ from molviz.write.svg_path import path_data
 from molviz.write.text import clean, number, token
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
+NAMELESS = Mark("")
 
 
 def write_svg(picture: Picture) -> bytes:
@@ -78,8 +79,7 @@ class Elements:
     def fill(self, layer: Group, data: Sequence[str], marks: Sequence[Mark], own: Iterator[dict[str, str]]) -> None:
         """Add the shapes to the layer's group; without marks all of them are one path."""
         if not marks:
-            layer.add(Path("".join(data), factory=self.drawing))
-            return
+            data, marks = ["".join(data)], [NAMELESS]
         nest = Nest(self, layer)
         for d, mark, attributes in zip(data, marks, own, strict=False):
             if d:
@@ -87,7 +87,9 @@ class Elements:
 
     def shape(self, d: str, mark: Mark, attributes: dict[str, str]) -> Path:
         """Return the element of one shape."""
-        path = Path(d, id=self.fresh_id(mark.id), factory=self.drawing, **attributes)
+        path = Path(d, factory=self.drawing, **attributes)
+        if mark.id:
+            path["id"] = self.fresh_id(mark.id)
         if mark.classes:
             path["class"] = " ".join(map(token, mark.classes))
         if mark.title:
@@ -105,8 +107,8 @@ class Nest:
 
     def enter(self, names: Sequence[tuple[str, str]]) -> Group:
         """Return the innermost group of that name, keeping open what it has in common with the last one."""
-        common = next((k for k, pair in enumerate(zip(names, self.names, strict=False)) if pair[0] != pair[1]), None)
-        common = min(len(names), len(self.names)) if common is None else common
+        same = [new == old for new, old in zip(names, self.names, strict=False)]
+        common = [*same, False].index(False)
         del self.names[common:], self.open[common + 1 :]
         for name, css_class in names[common:]:
             group = self.elements.group(name, class_=token(css_class))
