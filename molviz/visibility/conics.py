@@ -131,10 +131,13 @@ def _real_roots(b: Floats, c: Floats, d: Floats) -> Floats:
 
 
 def _polished(form: Harmonics, angle: Floats, reach: Floats) -> Floats:
-    """Newton's method on the function itself, never farther than half-way to the line's other root."""
-    start = angle
+    """Newton's method on the function itself, while it helps, and never half-way to the line's other root."""
+    start, value = angle, form.at(angle)
     for _ in range(POLISH_STEPS):
         with np.errstate(divide="ignore", invalid="ignore"):
-            step = np.nan_to_num(form.at(angle) / form.slope(angle), nan=0.0, posinf=0.0, neginf=0.0)
-        angle = np.clip(angle - step, start - reach, start + reach)
+            step = np.nan_to_num(value / form.slope(angle), nan=0.0, posinf=0.0, neginf=0.0)
+        trial = np.clip(angle - step, start - reach, start + reach)
+        reached = form.at(trial)
+        better = np.abs(reached) < np.abs(value)
+        angle, value = np.where(better, trial, angle), np.where(better, reached, value)
     return angle

@@ -5,11 +5,10 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats
-from molviz.curves import Paths, PlaneArcs
+from molviz.picture.arcs import Paths, PlaneArcs
 from molviz.write.ellipse import (
     AxisArcs,
     closed_loops,
-    cross,
     in_equal_pieces,
     major_vertex,
     on_axes,
@@ -18,9 +17,8 @@ from molviz.write.ellipse import (
 )
 from molviz.write.text import Texts, dictionary
 
-STRAY = 0.02  # points: how far rounding may move the middle of an arc before the arc is cut in two
-FLAT = 0.01  # points: an arc that leaves its chord by less is the chord, as rounding moves its ends as far
-CUTS = 6  # halvings: pieces a 64th of an arc are pinned by their ends
+STRAY = 0.01  # points: how far rounding may move the middle of an arc before the arc is cut in two
+CUTS = 10  # halvings: by then every arc that fits on a page lies on its chord
 HALF_TURN = 1e-9  # radians
 
 
@@ -41,14 +39,18 @@ def y_down(arcs: PlaneArcs, height: float) -> PlaneArcs:
     return arcs._replace(c=arcs.c * flip + [0.0, height], u=arcs.u * flip, v=arcs.v * flip)
 
 
+def is_half(sweep: Floats) -> Bools:
+    """Return which arcs (k,) are half their ellipse."""
+    return np.asarray(np.abs(np.abs(sweep) - np.pi) < HALF_TURN)
+
+
 def rounded_radii(axes: AxisArcs, straight: Bools) -> Floats:
     """Return the half-axes (k, 2) to hundredths, zero where straight.
 
     A half ellipse rounds down: a viewer enlarges radii that do not reach, but too large ones would flatten the arc.
     """
     exact = 100 * np.column_stack([axes.major, axes.minor])
-    half = np.abs(np.abs(axes.sweep) - np.pi) < HALF_TURN
-    steps = np.where(half[:, None], np.maximum(np.floor(exact + 1e-6), 1.0), np.rint(exact))
+    steps = np.where(is_half(axes.sweep)[:, None], np.maximum(np.floor(exact + 1e-6), 1.0), np.rint(exact))
     return np.asarray(np.where(straight[:, None], 0.0, steps / 100))
 
 
@@ -83,21 +85,6 @@ def drawn_middle(command: Commands) -> Floats:
     return np.asarray((command.start + command.end) / 2 + beside)
 
 
-def flat(arcs: PlaneArcs) -> Bools:
-    """Return which arcs (k,) run along their chords, never backwards, and hardly leave them."""
-    stop = arcs.start + arcs.sweep
-    start, middle, end = (arcs.at(t) for t in (arcs.start, arcs.start + arcs.sweep / 2, stop))
-    chord = end - start
-    length = np.hypot(*chord.T)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        beside = np.abs(cross(chord, middle - start)) / length
-    onward = np.ones(len(length), dtype=bool)
-    for t in (arcs.start, stop):
-        tangent = (arcs.v * np.cos(t)[:, None] - arcs.u * np.sin(t)[:, None]) * np.sign(arcs.sweep)[:, None]
-        onward &= np.einsum("ki,ki->k", tangent, chord) > 0
-    return np.asarray((beside < FLAT) & onward & (np.abs(arcs.sweep) < np.pi))
-
-
 def from_vertices(paths: Paths) -> Paths:
     """Return the paths with every loop that is one whole ellipse starting at a major vertex.
 
@@ -115,36 +102,34 @@ def settled(paths: Paths) -> tuple[Paths, Bools, Commands]:
     """Return paths (y down) cut so that their rounded commands draw the arcs, which are straight, and the commands.
 
     The centre follows from ends and radii, badly so when the ends are opposite, coincide, or the ellipse is thin:
-    there a hundredth of a point can move the arc by tenths. Such arcs are cut in two, whose ends then pin them; what is
-    as good as straight is written so.
+    there a hundredth of a point can move the arc by tenths. Such arcs are cut in two, whose ends then pin them, until
+    they lie as close to their chord as an arc could be placed, and become straight.
     """
     paths, straight = with_straight_pieces(from_vertices(paths))
-    straight |= flat(paths.arcs)
     for _ in range(CUTS):
-        command = commands(paths, straight)
-        arcs = paths.arcs
-        off = drawn_middle(command) - arcs.at(arcs.start + arcs.sweep / 2)
-        stray = (np.hypot(*off.T) > STRAY) & ~straight
-        if not stray.any():
+        command, arcs = commands(paths, straight), paths.arcs
+        middle, chord = arcs.at(arcs.start + arcs.sweep / 2), (command.start + command.end) / 2
+        allowed = np.where(is_half(arcs.sweep), 2 * STRAY, STRAY)  # all that is wrong with a half is its radii
+        stray = (np.hypot(*(drawn_middle(command) - middle).T) > allowed) & ~straight
+        straight = straight | (stray & (np.hypot(*(chord - middle).T) <= STRAY))
+        count = np.where(stray & ~straight, 2, 1)
+        if (count == 1).all():
             break
-        count = np.where(stray, 2, 1)
         paths, straight = in_equal_pieces(paths, count), np.repeat(straight, count)
-        straight |= flat(paths.arcs)
     return paths, straight, commands(paths, straight)
 
 
-def joined(values: Floats, head: bool) -> Texts:
+def joined(values: Floats) -> Texts:
     """Return the texts (k,) of rows of numbers (k, m), separated only where the grammar needs it.
 
-    A minus starts a number by itself, and so does a point after a number that had one; ``head`` says that the first
-    number follows a letter.
+    A minus starts a number by itself, and so does a point after a number that had one.
     """
     words, index = dictionary(values, 2)
     pointed = np.array(["." in word for word in words], dtype=bool)[index]
     apart = np.array([not word.startswith(("-", ".")) for word in words], dtype=bool)[index]
     leading = np.array([word.startswith(".") for word in words], dtype=bool)[index]
     apart[:, 1:] |= leading[:, 1:] & ~pointed[:, :-1]
-    apart[:, 0] = ~head & (apart[:, 0] | leading[:, 0])
+    apart[:, 0] = False
     spaced = np.where(apart, " " + words[index], words[index])
     return np.asarray(spaced.sum(axis=1))
 
@@ -152,10 +137,10 @@ def joined(values: Floats, head: bool) -> Texts:
 def command_texts(command: Commands) -> Texts:
     """Return one text (k,) per command, empty where start and end are the same."""
     step = np.round(command.end - command.start, 2)
-    shape = joined(np.column_stack([command.radius, command.rotation]), True)
-    flags = np.array([" 0 0", " 0 1", " 1 0", " 1 1"], dtype=object)[2 * command.large + command.positive]
-    line = "l" + joined(step, True)
-    arc = "a" + shape + flags + joined(step, False)
+    shape = joined(np.column_stack([command.radius, command.rotation]))
+    flags = np.array([" 00", " 01", " 10", " 11"], dtype=object)[2 * command.large + command.positive]
+    line = "l" + joined(step)
+    arc = "a" + shape + flags + joined(step)  # a flag is one digit and needs no separator
     text = np.where(command.radius[:, 0] > 0, arc, line)
     return np.where((step == 0).all(axis=1), "", text)
 
@@ -165,7 +150,7 @@ def loop_texts(paths: Paths, command: Commands) -> list[str]:
     words, first, stop = command_texts(command).tolist(), paths.loop_start[:-1], paths.loop_start[1:]
     held, closed = stop > first, closed_loops(paths)
     move = np.full(len(first), "", dtype=object)
-    move[held] = "M" + joined(command.start[first[held]], True)
+    move[held] = "M" + joined(command.start[first[held]])
     bodies = ["".join(words[a:b]) for a, b in zip(first.tolist(), stop.tolist(), strict=True)]
     rows = zip(move.tolist(), bodies, closed.tolist(), strict=True)
     return [f"{start}{body}{'z' if is_closed else ''}" if body else "" for start, body, is_closed in rows]
