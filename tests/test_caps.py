@@ -3,9 +3,11 @@
 from collections import defaultdict
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from molviz.geometry import boundary as boundary_module
 from molviz.geometry.boundary import union_boundary
 from tests.measure_oracle import all_free_arcs
 from tests.oracle import random_spheres
@@ -25,3 +27,12 @@ def test_free_arcs_are_those_of_testing_every_piece(seed: int, count: int, exten
     found = dict(zip(pairs, sweep.tolist(), strict=True))
     for pair in {*expected, *found}:
         assert abs(expected[pair] - found.get(pair, 0.0)) < 1e-9
+
+
+def test_rims_taken_in_turns_give_the_same_arcs(monkeypatch: pytest.MonkeyPatch) -> None:
+    spheres = random_spheres(8, 60, 5.0, 3.0)
+    expected = union_boundary(spheres)
+    monkeypatch.setattr(boundary_module, "BLOCK_ENTRIES", 100)
+    found = union_boundary(spheres)
+    for one, other in zip(expected.arcs + expected.circles, found.arcs + found.circles, strict=True):
+        assert np.array_equal(one, other)

@@ -87,11 +87,19 @@ def _candidates(spheres: Spheres, crossing: Neighbours) -> OpenCreases:
     """The creases that may have a free part, of all spheres; crease numbers run through."""
     empty = np.empty(0, dtype=np.int64)
     with ThreadPoolExecutor(THREADS) as pool:
-        parts = list(pool.map(lambda sphere: open_creases(_caps(spheres, crossing, sphere)), _blocks(crossing)))
+        found = pool.map(lambda sphere: _of_block(_caps(spheres, crossing, sphere)), _blocks(crossing))
+        parts = [part for block in found for part in block]
     parts.append(OpenCreases(empty, empty, empty.astype(np.uint64), empty, empty))
     begin = np.cumsum([0] + [len(part.first) for part in parts])
     shifted = [part._replace(crease=part.crease + at) for part, at in zip(parts, begin, strict=False)]
     return _in_order(OpenCreases(*(np.concatenate(column) for column in zip(*shifted, strict=True))))
+
+
+def _of_block(caps: Caps) -> list[OpenCreases]:
+    """The same of some spheres; where one meets thousands of others, its rims are taken in turns."""
+    count, width = caps.item.shape
+    step = max(BLOCK_ENTRIES // (count * width), 1)
+    return [open_creases(caps, slice(begin, min(begin + step, width))) for begin in range(0, width, step)]
 
 
 def _in_order(creases: OpenCreases) -> OpenCreases:

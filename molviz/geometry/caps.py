@@ -43,49 +43,47 @@ class OpenCreases(NamedTuple):
     ball: Ints  # (k,)
 
 
-def open_creases(caps: Caps) -> OpenCreases:
-    """Return what may be free of the creases of ``caps.sphere`` with balls of a higher row."""
-    later = (caps.item > caps.sphere[:, None]) & ~_inside_larger(caps)
-    a, b, c = _in_plane(caps, later)
+def open_creases(caps: Caps, rims: slice) -> OpenCreases:
+    """Return what may be free of the given rims of ``caps``, of those that belong to balls of a higher row."""
+    later = (caps.item[:, rims] > caps.sphere[:, None]) & ~_inside_larger(caps, rims)
+    a, b, c = _in_plane(caps, rims, later)
     covered = np.bitwise_or.reduce(_bins_inside(a, b, c), axis=1)
     free = np.flatnonzero(covered != ALL)
     outside = _bins_inside(-a[free], -b[free], -c[free])
     crease, k = np.nonzero((outside | covered[free, None]) != ALL)
     sphere, p = (index[free] for index in np.nonzero(later))
     ball = caps.item[sphere[crease], k]
-    return OpenCreases(caps.sphere[sphere], caps.item[sphere, p], covered[free], crease, ball)
+    return OpenCreases(caps.sphere[sphere], caps.item[:, rims][sphere, p], covered[free], crease, ball)
 
 
-def _inside_larger(caps: Caps) -> Bools:
-    """Whether the rim of each cap lies in a larger cap of its sphere, (m, p).
+def _inside_larger(caps: Caps, rims: slice) -> Bools:
+    """Whether each of the given rims lies in a larger cap of its sphere, (m, r).
 
     With ω the angles of the caps and δ that between their axes: ``δ < ω_k − ω_p``, or
     ``cos δ − cos ω_p cos ω_k − sin ω_p sin ω_k > 0``, one product of vectors of five.
     """
     sine = np.sqrt(np.maximum(1.0 - caps.cosine**2, 0.0))
     turn = np.stack([caps.cosine, sine], axis=2)
-    one = np.concatenate([caps.axis, -turn], axis=2, dtype=np.float32)
+    one = np.concatenate([caps.axis[:, rims], -turn[:, rims]], axis=2, dtype=np.float32)
     other = np.concatenate([caps.axis, turn], axis=2, dtype=np.float32)
     depth: Singles = one @ other.transpose(0, 2, 1)
-    depth *= np.tri(caps.item.shape[1], k=-1, dtype=np.float32)
+    depth *= np.tri(depth.shape[1], depth.shape[2], rims.start - 1, dtype=np.float32)
     return np.asarray(depth.max(axis=2) > SINGLE)
 
 
-def _in_plane(caps: Caps, wanted: Bools) -> tuple[Singles, Singles, Singles]:
+def _in_plane(caps: Caps, rims: slice, wanted: Bools) -> tuple[Singles, Singles, Singles]:
     """On the rim p, as circle ``p(θ)`` of the crease: ball k covers ``a cos θ + b sin θ > c``; three arrays (w, p).
 
     ``p(θ) = cos ω_p axis_p + sin ω_p (e cos θ + f sin θ)``, which enters cap k where ``p(θ) · axis_k > cos ω_k``.
     """
-    count, p = caps.item.shape
-    sine = np.sqrt(np.maximum(1.0 - caps.cosine**2, 0.0))[:, :, None]
-    e, f = (vector.reshape(count, p, 3) * sine for vector in perpendicular(caps.axis.reshape(-1, 3)))
+    axis, cosine = caps.axis[:, rims], caps.cosine[:, rims, None]
+    sine = np.sqrt(np.maximum(1.0 - cosine**2, 0.0))
+    e, f = (vector.reshape(axis.shape) * sine for vector in perpendicular(axis.reshape(-1, 3)))
     against = caps.axis.astype(np.float32).transpose(0, 2, 1)
-    a, b, along = (
-        (vector.astype(np.float32) @ against)[wanted] for vector in (e, f, caps.axis * caps.cosine[:, :, None])
-    )
+    a, b, along = ((vector.astype(np.float32) @ against)[wanted] for vector in (e, f, axis * cosine))
     row, own = np.nonzero(wanted)
     c = caps.cosine.astype(np.float32)[row] - along
-    c[np.arange(len(row)), own] = 2.0  # a ball does not cover its own rim
+    c[np.arange(len(row)), own + rims.start] = 2.0  # a ball does not cover its own rim
     return a, b, c
 
 
