@@ -15,11 +15,12 @@ def sign_changes(form: Quadratic) -> np.ndarray:
     theta = np.linspace(0, TURN, 4001)
     c, s = np.cos(theta), np.sin(theta)
     value = form.aa * c * c + 2 * form.ab * c * s + form.bb * s * s + 2 * form.a * c + 2 * form.b * s + form.c
-    return theta[np.flatnonzero((value[:-1] * value[1:] < 0) & (np.abs(value[:-1]) > 1e-9))]
+    return theta[np.flatnonzero((value[:-1] * value[1:] < 0) & (np.abs(value[:-1]) > 1e-9) & (np.abs(value[1:]) > 1e-9))]
 
 
 @given(st.tuples(*[number] * 6))
 @example((0.0, 1.0, 0.0, 0.0, 1e-09, 1.0))  # two roots 5e-5 apart, from which Newton's step flew far
+@example((1.0, 1e-11, 1.0, 0.0, 1.0, 0.0))  # the cubic's root at the end of its bracket
 @settings(max_examples=400)
 def test_every_sign_change_is_a_root(columns: tuple[float, ...]) -> None:
     form = Quadratic(*(np.array([column]) for column in columns))

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.render import needs_ghostscript, render_ps, render_svg
-from tests.write_pictures import COLORS, expected_colors, fills, picture, whole_picture
 
 from molviz.picture.picture import Picture, StrokeLayer
 from molviz.write import WRITERS, write
+from tests.render import needs_ghostscript, render_ps, render_svg
+from tests.write_pictures import COLORS, expected_colors, fills, picture, whole_picture
 
 GOLDEN = Path(__file__).parent / "golden"
 SVG = "{http://www.w3.org/2000/svg}"

@@ -5,9 +5,8 @@ import re
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.write_pictures import TURN
 
-from molviz.picture.arcs import Paths, PlaneArcs
+from molviz.curves import Paths, PlaneArcs
 from molviz.write.ellipse import (
     BEZIER_ERROR,
     bezier_handles,
@@ -17,6 +16,7 @@ from molviz.write.ellipse import (
     with_straight_pieces,
 )
 from molviz.write.svg_path import path_data
+from tests.write_pictures import TURN
 
 vector = st.tuples(st.floats(-40, 40), st.floats(-40, 40))
 sweep = st.one_of(st.floats(-TURN, TURN).filter(lambda s: abs(s) > 1e-3), st.sampled_from([np.pi, -np.pi, TURN, -TURN]))

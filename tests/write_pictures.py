@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from molviz.picture.arcs import Paths, PlaneArcs
+from molviz.curves import Paths, PlaneArcs
 from molviz.picture.picture import FillLayer, Mark, Picture, StrokeLayer
 
 TURN = 2 * np.pi

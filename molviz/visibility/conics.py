@@ -89,8 +89,17 @@ def _two_lines(form: Harmonics) -> tuple[Floats, Floats, Floats, Floats]:
     difference = np.where(q < SMALL_FACTOR * p, by_total, difference)
     total = np.where(p < SMALL_FACTOR * q, by_difference, total)
     linear = form.h2 <= NEARLY_LINEAR * np.hypot(form.h1, form.g1)
-    e, f = np.where(linear, form.h0, (total - difference) / 2), np.where(linear, np.inf, (total + difference) / 2)
+    e, f = _terms(total, difference, product)
+    e, f = np.where(linear, form.h0, e), np.where(linear, np.inf, f)
     return np.where(linear, form.h1, p), np.where(linear, form.g1, q), e, f
+
+
+def _terms(total: Floats, difference: Floats, product: Floats) -> tuple[Floats, Floats]:
+    """e and f from ``e + f``, ``f − e`` and ``e f``: the larger by the sums, the smaller by the product."""
+    e, f = (total - difference) / 2, (total + difference) / 2
+    larger = np.where(np.abs(e) > np.abs(f), e, f)
+    smaller = np.divide(product, larger, out=np.zeros_like(larger), where=larger != 0)
+    return np.where(larger == e, e, smaller), np.where(larger == e, smaller, f)
 
 
 def _quotient(part: Floats, factor: Floats, other: Floats) -> Floats:
@@ -107,10 +116,9 @@ def _cubic_root(form: Harmonics) -> Floats:
     """
     k, square = form.h0 - form.h2, (form.h1**2 + form.g1**2) / 4
     candidates = _real_roots(2 * form.h2 - k, square - 2 * form.h2 * k, form.h2 * form.g1**2 / 2)
-    candidates = np.clip(candidates, -2 * form.h2, 0.0)
     inside = np.minimum(-candidates, 2 * form.h2 + candidates)
     best = np.argmax(inside, axis=0)
-    return np.asarray(candidates[best, np.arange(len(best))])
+    return np.asarray(np.clip(candidates[best, np.arange(len(best))], -2 * form.h2, 0.0))
 
 
 def _real_roots(b: Floats, c: Floats, d: Floats) -> Floats:

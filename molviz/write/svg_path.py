@@ -5,10 +5,11 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats
-from molviz.picture.arcs import Paths, PlaneArcs
+from molviz.curves import Paths, PlaneArcs
 from molviz.write.ellipse import (
     AxisArcs,
     closed_loops,
+    cross,
     in_equal_pieces,
     major_vertex,
     on_axes,
@@ -17,7 +18,8 @@ from molviz.write.ellipse import (
 )
 from molviz.write.text import Texts, dictionary
 
-STRAY = 0.01  # points: how far rounding may move the middle of an arc before the arc is cut in two
+STRAY = 0.02  # points: how far rounding may move the middle of an arc before the arc is cut in two
+FLAT = 0.01  # points: an arc that leaves its chord by less is the chord, as rounding moves its ends as far
 CUTS = 10  # halvings: by then every arc that fits on a page lies on its chord
 HALF_TURN = 1e-9  # radians
 
@@ -85,6 +87,21 @@ def drawn_middle(command: Commands) -> Floats:
     return np.asarray((command.start + command.end) / 2 + beside)
 
 
+def flat(arcs: PlaneArcs) -> Bools:
+    """Return which arcs (k,) run along their chords, never backwards, and hardly leave them."""
+    stop = arcs.start + arcs.sweep
+    start, middle, end = (arcs.at(t) for t in (arcs.start, arcs.start + arcs.sweep / 2, stop))
+    chord = end - start
+    length = np.hypot(*chord.T)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        beside = np.abs(cross(chord, middle - start)) / length
+    onward = np.ones(len(length), dtype=bool)
+    for t in (arcs.start, stop):
+        tangent = (arcs.v * np.cos(t)[:, None] - arcs.u * np.sin(t)[:, None]) * np.sign(arcs.sweep)[:, None]
+        onward &= np.einsum("ki,ki->k", tangent, chord) > 0
+    return np.asarray((beside < FLAT) & onward & (np.abs(arcs.sweep) < np.pi))
+
+
 def from_vertices(paths: Paths) -> Paths:
     """Return the paths with every loop that is one whole ellipse starting at a major vertex.
 
@@ -102,20 +119,21 @@ def settled(paths: Paths) -> tuple[Paths, Bools, Commands]:
     """Return paths (y down) cut so that their rounded commands draw the arcs, which are straight, and the commands.
 
     The centre follows from ends and radii, badly so when the ends are opposite, coincide, or the ellipse is thin:
-    there a hundredth of a point can move the arc by tenths. Such arcs are cut in two, whose ends then pin them, until
-    they lie as close to their chord as an arc could be placed, and become straight.
+    there a hundredth of a point can move the arc by tenths. Such arcs are cut in two, whose ends then pin them; what is
+    as good as straight is written so.
     """
     paths, straight = with_straight_pieces(from_vertices(paths))
+    straight |= flat(paths.arcs)
     for _ in range(CUTS):
         command, arcs = commands(paths, straight), paths.arcs
-        middle, chord = arcs.at(arcs.start + arcs.sweep / 2), (command.start + command.end) / 2
+        middle = arcs.at(arcs.start + arcs.sweep / 2)
         allowed = np.where(is_half(arcs.sweep), 2 * STRAY, STRAY)  # all that is wrong with a half is its radii
         stray = (np.hypot(*(drawn_middle(command) - middle).T) > allowed) & ~straight
-        straight = straight | (stray & (np.hypot(*(chord - middle).T) <= STRAY))
-        count = np.where(stray & ~straight, 2, 1)
-        if (count == 1).all():
+        if not stray.any():
             break
+        count = np.where(stray, 2, 1)
         paths, straight = in_equal_pieces(paths, count), np.repeat(straight, count)
+        straight |= flat(paths.arcs)
     return paths, straight, commands(paths, straight)
 
 
@@ -138,9 +156,10 @@ def command_texts(command: Commands) -> Texts:
     """Return one text (k,) per command, empty where start and end are the same."""
     step = np.round(command.end - command.start, 2)
     shape = joined(np.column_stack([command.radius, command.rotation]))
-    flags = np.array([" 00", " 01", " 10", " 11"], dtype=object)[2 * command.large + command.positive]
+    flags = np.array([" 0 0", " 0 1", " 1 0", " 1 1"], dtype=object)[2 * command.large + command.positive]
+    gap = np.where(step[:, 0] < 0, "", " ").astype(object)  # legal without, but not every program reads it
     line = "l" + joined(step)
-    arc = "a" + shape + flags + joined(step)  # a flag is one digit and needs no separator
+    arc = "a" + shape + flags + gap + joined(step)
     text = np.where(command.radius[:, 0] > 0, arc, line)
     return np.where((step == 0).all(axis=1), "", text)
 
