@@ -15,11 +15,14 @@ def sign_changes(form: Quadratic) -> np.ndarray:
     theta = np.linspace(0, TURN, 4001)
     c, s = np.cos(theta), np.sin(theta)
     value = form.aa * c * c + 2 * form.ab * c * s + form.bb * s * s + 2 * form.a * c + 2 * form.b * s + form.c
-    return theta[np.flatnonzero((value[:-1] * value[1:] < 0) & (np.abs(value[:-1]) > 1e-9) & (np.abs(value[1:]) > 1e-9))]
+    clear = np.minimum(np.abs(value[:-1]), np.abs(value[1:])) > 1e-9
+    return theta[np.flatnonzero((value[:-1] * value[1:] < 0) & clear)]
 
 
 @given(st.tuples(*[number] * 6))
 @example((0.0, 1.0, 0.0, 0.0, 1e-09, 1.0))  # two roots 5e-5 apart, from which Newton's step flew far
+@example((0.0, 2.0, 0.0, 0.0, 2e-55, 1.0))  # both terms nought to rounding
+@example((0.5, -1.6145356490770436e-12, 0.5, 0.5, 0.5, 0.0))  # the second harmonic is lost in the cubic
 @example((1.0, 1e-11, 1.0, 0.0, 1.0, 0.0))  # the cubic's root at the end of its bracket
 @settings(max_examples=400)
 def test_every_sign_change_is_a_root(columns: tuple[float, ...]) -> None:

@@ -102,8 +102,8 @@ def drawn(d: str) -> np.ndarray:
         if command[0] == "a":
             head, tail = re.fullmatch(rf"a((?:[ ]?{number}){{3}}) (.*)", command).group(1, 3)
             rx, ry, degrees = map(float, re.findall(number, head))
-            large, positive = tail[0] == "1", tail[1] == "1"
-            there = here + complex(*map(float, re.findall(number, tail[2:])))
+            large, positive = tail[0] == "1", tail[2] == "1"
+            there = here + complex(*map(float, re.findall(number, tail[3:])))
             turn = np.exp(1j * np.radians(degrees))
             centre, a, swept, grow = arc_centre(here, there, rx, ry, turn, large, positive)
             unit = grow * (centre + (a - centre) * np.exp(1j * swept * np.linspace(0, 1, 60)))

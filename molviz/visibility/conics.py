@@ -16,7 +16,7 @@ from molviz.visibility.projection import Quadratic
 
 POLISH_STEPS = 3  # Newton steps for the roots themselves, quadratic from the lines' 1e-8 or better
 SMALL_FACTOR = 1e-3  # below this ratio of p and q, dividing by the smaller loses what the product e f still knows
-NEARLY_LINEAR = 1e-12  # second harmonic relative to the first below which there is only one line
+NEARLY_LINEAR = 1e-10  # second harmonic relative to the first below which one line is taken, and polished
 
 
 class Harmonics(NamedTuple):
@@ -95,11 +95,14 @@ def _two_lines(form: Harmonics) -> tuple[Floats, Floats, Floats, Floats]:
 
 
 def _terms(total: Floats, difference: Floats, product: Floats) -> tuple[Floats, Floats]:
-    """e and f from ``e + f``, ``f − e`` and ``e f``: the larger by the sums, the smaller by the product."""
+    """e and f from ``e + f``, ``f − e`` and ``e f``: by the sums, or by the product where these cancel."""
     e, f = (total - difference) / 2, (total + difference) / 2
-    larger = np.where(np.abs(e) > np.abs(f), e, f)
-    smaller = np.divide(product, larger, out=np.zeros_like(larger), where=larger != 0)
-    return np.where(larger == e, e, smaller), np.where(larger == e, smaller, f)
+    return _unless_lost(e, f, product), _unless_lost(f, e, product)
+
+
+def _unless_lost(term: Floats, other: Floats, product: Floats) -> Floats:
+    lost = np.abs(term) < SMALL_FACTOR * np.abs(other)
+    return np.divide(product, other, out=term.copy(), where=lost)
 
 
 def _quotient(part: Floats, factor: Floats, other: Floats) -> Floats:
