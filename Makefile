@@ -10,7 +10,7 @@ PICTURES := $(foreach stem,$(STEMS),pictures/$(stem).svg pictures/$(stem).ps)
 DRAW_OPTIONS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check pictures bench tables figures clean
+.PHONY: help demo test check pictures docs bench tables figures clean
 
 help: ## show this help
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -47,6 +47,14 @@ pictures/$(basename $(notdir $(1:.gz=))).svg pictures/$(basename $(notdir $(1:.g
 	$(MOLVIZ) draw $(1) -o $$@ $(DRAW_OPTIONS)
 endef
 $(foreach sample,$(SAMPLES),$(eval $(call picture_rules,$(sample))))
+
+docs: $(VENV)/installed ## redraw the README's pictures
+	$(MOLVIZ) draw samples/caffeine.xyz --width 8cm -o docs/caffeine.svg
+	$(MOLVIZ) draw samples/1tii.pdb.gz --no-water --color-by chain --width 14cm -o docs/1tii.svg
+	$(MOLVIZ) draw samples/c60.xyz --perspective 15 --width 8cm -o docs/c60.svg
+	$(MOLVIZ) hidden-lines samples/1a1f.pdb --no-water --width 14cm -o docs/1a1f-lines.svg
+	$(MOLVIZ) hidden-lines --random 1000 --shrink --radius 0.135 -o docs/gas.svg
+	$(MOLVIZ) draw samples/1a8o.pdb --no-water --color-by exposure --legend --width 10cm -o docs/1a8o-exposure.svg
 
 bench: $(VENV)/benched ## measure run times, sizes and peers (nothing is asserted)
 	$(BIN)/python benchmarks/draw_bench.py
