@@ -1,6 +1,6 @@
 """Make again, byte for byte, the samples that are built and not taken from the Protein Data Bank.
 
-Needs RDKit and ASE: ``python samples/make_samples.py [FOLDER]`` (default: the folder of this script).
+Needs molviz, RDKit and ASE: ``python samples/make_samples.py [FOLDER]`` (default: the folder of this script).
 """
 
 import sys
@@ -10,6 +10,9 @@ import numpy as np
 from ase.build import bulk
 from rdkit import Chem
 from rdkit.Chem import AllChem
+
+from molviz.model.scenes import random_scene, text_scene
+from molviz.model.spheres import Spheres
 
 CAFFEINE = "CN1C=NC2=C1C(=O)N(C(=O)N2C)C"
 BOND_OF_PENTAGON, BOND_BETWEEN_PENTAGONS = 1.458, 1.401  # Å; Hedberg et al., Science 254 (1991) 410
@@ -65,6 +68,12 @@ def pile() -> str:
     return "\n".join(["# x y z r: every ball touches its neighbours", *rows]) + "\n"
 
 
+def scene(spheres: Spheres, comment: str) -> str:
+    """Return one of Franklin's scenes, a hundred times as large and with the front, his smallest z, turned up."""
+    rows = 100 * np.column_stack([spheres.center * [1, 1, -1], spheres.radius])
+    return "\n".join([f"# {comment}", *(" ".join(f"{value:.4f}" for value in row) for row in rows.tolist())]) + "\n"
+
+
 def main() -> None:
     """Write all of them into the folder named on the command line."""
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent
@@ -73,6 +82,8 @@ def main() -> None:
         "c60.xyz": buckminsterfullerene,
         "nacl.extxyz": sodium_chloride,
         "pile.xyzr": pile,
+        "cse.xyzr": lambda: scene(text_scene("CSE"), "layers of spheres that spell CSE, as in Franklin 1980, Fig. 5"),
+        "gas.xyzr": lambda: scene(random_scene(1000), "Franklin's 1000 random spheres, ten deep"),
     }
     for name, make in samples.items():
         (folder / name).write_text(make(), encoding="utf-8")

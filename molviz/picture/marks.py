@@ -17,5 +17,5 @@ def _mark(chain: str, name: str, residue: str, atom: str, element: str, row: int
     place = f"{name} {residue}"
     mark_id, title = f"{chain}{residue}{atom}", f"{place} {atom}"
     if grouped:
-        return Mark(mark_id, title, (element,), ((chain or "-", "chain"), (place, "residue")))
+        return Mark(mark_id, title, (element,), ((chain or "-", f"chain chain-{chain}"), (place, f"residue {name}")))
     return Mark(mark_id, title, (element, name, f"chain-{chain}" if chain else "chain"))

@@ -13,7 +13,7 @@ Color: TypeAlias = tuple[int, int, int]  # sRGB, 0 to 255 each
 class Mark:
     """What a shape stands for, where a format can say so.
 
-    ``groups`` are (name, css class) pairs from the outside in, for example ``(("A", "chain"), ("CYS 32", "residue"))``;
+    ``groups`` are (name, css classes) pairs from the outside in: ``(("A", "chain"), ("CYS 32", "residue CYS"))``;
     shapes that follow each other with a common prefix belong into the same nested groups. Names come from files:
     writers escape them.
     """

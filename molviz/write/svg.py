@@ -156,7 +156,7 @@ class Nest:
         common = min(len(names), len(self.names)) if common is None else common
         del self.names[common:], self.open[common + 1 :]
         for name, css_class in names[common:]:
-            group = self.elements.group(name, class_=token(css_class))
+            group = self.elements.group(name, class_=" ".join(map(token, css_class.split())))
             group.set_desc(clean(name))
             self.open.append(self.open[-1].add(group))
             self.names.append((name, css_class))
