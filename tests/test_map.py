@@ -110,3 +110,11 @@ def test_painted_pieces_show_what_is_seen(seed: int, count: int, extent: float, 
     for sphere in found.order.tolist():
         painted[sampled_face(found.arcs, found.loops, sphere, points) > 0] = sphere
     assert np.array_equal(painted, seen_at(view.of(spheres), points))
+
+
+@pytest.mark.parametrize("distance", [20.0, 2e3, 2e4])
+@pytest.mark.parametrize("name", DEGENERATE)
+def test_a_far_eye_sees_degenerate_scenes_too(name: str, distance: float) -> None:
+    """Found with C60 from 2000 Å: squares of the distance drowned what displacing had separated."""
+    spheres = shaken(*DEGENERATE[name])
+    assert euler_defect(map_of(spheres, file_axes(spheres, distance))) == 0

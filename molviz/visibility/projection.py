@@ -194,13 +194,21 @@ class Central(NamedTuple):
         return -self._tangent(spheres)
 
     def horizon_margin(self, spheres: Spheres, horizons: Circles, own: Ints, other: Ints) -> Linear:
-        """``p · ck − Li Lk`` where k is nearer (inside its cone), else ``p · ck − (Li² + Lk²)/2`` (inside its ball)."""
+        """``p · ck − Li Lk`` where k is nearer (inside its cone), else ``p · ck − (Li² + Lk²)/2`` (inside its ball).
+
+        Written with differences, as all terms but these are as large as the eye is far: with ``Δ = ck − ci`` and
+        ``H = (Lk² − Li²)/2``, ``p · ck = Li² + p · Δ`` on horizon i, so the second is ``p · Δ − H``, of which the constant
+        part is ``−Δ · (Δ/2 + ci ri²/Di²) + (rk² − ri²)/2``, and the first is greater by ``(Lk − Li)²/2``.
+        """
         tangent = self._tangent(spheres)
-        one, two = tangent[own], tangent[other]
-        threshold = np.where(two < one, one * two, (one**2 + two**2) / 2)
-        c = spheres.center[other]
-        constant = _dot(horizons.center[own], c) - threshold
-        return Linear(_dot(horizons.a[own], c), _dot(horizons.b[own], c), constant)
+        center, toward = spheres.center[own], spheres.center[other] - spheres.center[own]
+        square, other_square = spheres.radius[own] ** 2, spheres.radius[other] ** 2
+        shift = toward / 2 + center * (square / _dot(center, center))[:, None]
+        ball = (other_square - square) / 2 - _dot(toward, shift)
+        half = (_dot(toward, center + spheres.center[other]) - (other_square - square)) / 2
+        step = 2 * half / (tangent[own] + tangent[other])
+        constant = ball + np.where(half < 0, step**2 / 2, 0.0)
+        return Linear(_dot(horizons.a[own], toward), _dot(horizons.b[own], toward), constant)
 
     def plane_margin(self, spheres: Spheres, circles: Circles, circle: Ints, sphere: Ints) -> Linear:
         """``p · ck − Lk²``."""
@@ -211,10 +219,10 @@ class Central(NamedTuple):
         )
 
     def cone(self, spheres: Spheres, circles: Circles, circle: Ints, sphere: Ints) -> Quadratic:
-        """``|p|² Lk² − (p · ck)²``, with p moved along the axis first: as ``|p × ck|² − rk² |p|²``."""
+        """``|p|² Lk² − (p · ck)²``, as ``|(p − ck) × ck|² − rk² |p|²``, in which nothing large cancels."""
         c, square = spheres.center[sphere], spheres.radius[sphere] ** 2
         parts = (circles.a[circle], circles.b[circle], circles.center[circle])
-        across = [np.cross(part, c) for part in parts]
+        across = [np.cross(part, c) for part in (parts[0], parts[1], parts[2] - c)]
 
         def form(i: int, j: int) -> Floats:
             return np.asarray(_dot(across[i], across[j]) - square * _dot(parts[i], parts[j]))
