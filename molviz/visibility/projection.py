@@ -197,8 +197,8 @@ class Central(NamedTuple):
         """``p · ck − Li Lk`` where k is nearer (inside its cone), else ``p · ck − (Li² + Lk²)/2`` (inside its ball).
 
         Written with differences, as all terms but these are as large as the eye is far: with ``Δ = ck − ci`` and
-        ``H = (Lk² − Li²)/2``, ``p · ck = Li² + p · Δ`` on horizon i, so the second is ``p · Δ − H``, of which the constant
-        part is ``−Δ · (Δ/2 + ci ri²/Di²) + (rk² − ri²)/2``, and the first is greater by ``(Lk − Li)²/2``.
+        ``H = (Lk² − Li²)/2``, ``p · ck = Li² + p · Δ`` on horizon i, so the second is ``p · Δ − H``, of which the
+        constant part is ``−Δ · (Δ/2 + ci ri²/Di²) + (rk² − ri²)/2``, and the first is greater by ``(Lk − Li)²/2``.
         """
         tangent = self._tangent(spheres)
         center, toward = spheres.center[own], spheres.center[other] - spheres.center[own]
