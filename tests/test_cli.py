@@ -161,3 +161,38 @@ def test_a_help_text_with_an_example_for_every_command() -> None:
 def test_nothing_heavy_is_imported_for_help() -> None:
     code = "import sys, molviz.cli; assert not {'numpy', 'gemmi', 'svgwrite', 'pydyf'} & set(sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [["--rotate", "x,nan"], ["--rotate", "x,inf"], ["--perspective", "nan"], ["--perspective", "1e300"],
+     ["--scale", "nan"], ["--scale", "inf"], ["--scale", "0"], ["--outline", "nan"], ["--crease", "inf"],
+     ["--scale-radii", "nan"], ["--scale-radii", "1e-300"], ["--probe", "nan"], ["--probe", "inf"],
+     ["--width", "1e9cm"], ["--width", "nancm"], ["--width", "wide"], ["--margin", "-1cm"]],
+)  # fmt: skip
+def test_numbers_without_a_picture_are_usage_errors(words: list[str], tmp_path: Path) -> None:
+    result = run("draw", CAFFEINE, "-o", str(tmp_path / "x.svg"), *words)
+    assert result.exit_code == 2, result.output
+    assert f"'{words[0]}'" in result.stderr
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.filterwarnings("error")
+def test_an_eye_among_the_atoms_is_told_in_one_line(tmp_path: Path) -> None:
+    result = run("draw", CAFFEINE, "-o", str(tmp_path / "x.svg"), "--perspective", "2")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("molviz: ") and "expected a distance above 2.24" in result.stderr
+
+
+@pytest.mark.parametrize("text", ["[lines]\n", "lines = 3\n", "[colors]\nelement = 3\n", "x = [\n"])
+def test_a_style_that_is_none_is_told_with_its_name(tmp_path: Path, text: str) -> None:
+    style = tmp_path / "mine.toml"
+    style.write_text(text, encoding="utf-8")
+    result = run("draw", CAFFEINE, "-o", str(tmp_path / "x.svg"), "--style", str(style))
+    assert result.exit_code == 1
+    assert result.stderr.startswith(f"molviz: {style}: not a style: ")
+
+
+def test_a_model_number_in_other_digits_is_no_number(tmp_path: Path) -> None:
+    result = run("draw", CAFFEINE, "-o", str(tmp_path / "x.svg"), "--model", "²")
+    assert result.exit_code == 1 and "no model or frame '²'" in result.stderr

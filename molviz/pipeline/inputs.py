@@ -57,7 +57,7 @@ def _model_numbers(reading: Reading, model: str) -> list[int]:
     count = len(reading.models)
     if model == "all":
         return list(range(1, count + 1))
-    if model.isdigit() and 1 <= int(model) <= count:
+    if model.isdecimal() and 1 <= int(model) <= count:
         return [int(model)]
     raise InputError(f"no model or frame {model!r}; the file has {count}, numbered from 1", reading.source)
 
