@@ -136,7 +136,7 @@ def wanted_from(options: dict[str, Any]) -> Wanted:
 
 def load_and_warn(source: str, wanted: Wanted, quiet: bool, strict: bool) -> list[Loaded]:
     """Return the wanted models; warnings go to standard error, or are raised as InputError if strict."""
-    data = sys.stdin.buffer.read() if source == "-" else None
+    data = _standard_input() if source == "-" else None
     loaded = load(source, wanted, data)
     warnings = dict.fromkeys(warning for one in loaded for warning in one.warnings)
     for warning in warnings:
@@ -145,3 +145,17 @@ def load_and_warn(source: str, wanted: Wanted, quiet: bool, strict: bool) -> lis
         if not quiet:
             click.echo(f"molviz: {warning}", err=True)
     return loaded
+
+
+def _standard_input() -> bytes:
+    if sys.stdin is None:  # closed by the caller
+        raise InputError("standard input is closed; expected the content of a file", "-")
+    return sys.stdin.buffer.read()
+
+
+def only_model(loaded: list[Loaded]) -> Loaded:
+    """Return the one model that a picture shows; raises InputError where there are more."""
+    if len(loaded) > 1:
+        count = len(loaded)
+        raise InputError(f"has {count} models, and a picture shows one; expected --model NUMBER", loaded[0].source)
+    return loaded[0]

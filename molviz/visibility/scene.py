@@ -70,7 +70,8 @@ def in_one_view(spheres: Spheres, view: View, query: Callable[[Scene, View], T])
             return query(prepared(spheres, attempt, view), view)
         except Degenerate:
             continue
-    raise InputError(f"the spheres stay in special position after {ATTEMPTS} perturbations")
+    nearer = "" if view.distance is None else "; expected an eye less far away, or a parallel view"
+    raise InputError(f"the spheres stay in special position after {ATTEMPTS} perturbations{nearer}")
 
 
 def _refuse_eye_among(spheres: Spheres, view: View) -> None:
