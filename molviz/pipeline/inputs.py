@@ -14,7 +14,6 @@ from molviz.model.selection import is_hydrogen, is_water, select
 from molviz.model.spheres import Spheres, spheres_of
 from molviz.read import Reading, read
 
-
 FAR_APART = 4000.0  # radii: wider pictures have more pixels than a screen, if each atom is to have two
 
 
