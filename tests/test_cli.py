@@ -239,3 +239,22 @@ def test_closed_or_full_ends_leave_no_traceback(words: str, ends: str) -> None:
     assert "Traceback" not in done.stderr and "Exception" not in done.stderr
     if ends == "> /dev/full":
         assert done.returncode == 1 and "cannot be written" in done.stderr
+
+
+@pytest.mark.parametrize("scheme", ["element", "chain"])
+def test_names_that_mean_something_to_a_format_stay_names(tmp_path: Path, scheme: str) -> None:
+    rows = [
+        f"HETATM{number:5d} {name:<4} {residue} {chain}   1{insertion}   {number * 2.5:8.3f}   0.000   0.000"
+        f"  1.00  0.00           C"
+        for number, (name, residue, chain, insertion) in enumerate(
+            [("<&>", 'A">', "<", " "), ("C)(\\", 'A">', "<", "A"), ("--", "]]>", "&", " "), ("--", "]]>", "&", "A"),
+             ("CA", "%()", "'", " "), ("CA", "%()", "(", " ")]
+        )
+    ]  # fmt: skip
+    odd = tmp_path / "odd<&>.pdb"
+    odd.write_text("\n".join(rows) + "\n", encoding="ascii")
+    root = ElementTree.fromstring(drawn(tmp_path, str(odd), "--color-by", scheme, suffix=".svg"))
+    ids = [element.get("id") for element in root.iter() if element.get("id")]
+    assert len(ids) == len(set(ids)) > len(rows)
+    assert drawn(tmp_path, str(odd), suffix=".pdf").startswith(b"%PDF")
+    assert all(32 <= byte < 127 or byte == 10 for byte in drawn(tmp_path, str(odd), suffix=".ps"))
