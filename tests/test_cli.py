@@ -161,3 +161,100 @@ def test_a_help_text_with_an_example_for_every_command() -> None:
 def test_nothing_heavy_is_imported_for_help() -> None:
     code = "import sys, molviz.cli; assert not {'numpy', 'gemmi', 'svgwrite', 'pydyf'} & set(sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [["--rotate", "x,nan"], ["--rotate", "x,inf"], ["--perspective", "nan"], ["--perspective", "1e300"],
+     ["--scale", "nan"], ["--scale", "inf"], ["--scale", "0"], ["--outline", "nan"], ["--crease", "inf"],
+     ["--scale-radii", "nan"], ["--scale-radii", "1e-300"], ["--probe", "nan"], ["--probe", "inf"],
+     ["--width", "1e9cm"], ["--width", "nancm"], ["--width", "wide"], ["--margin", "-1cm"]],
+)  # fmt: skip
+def test_numbers_without_a_picture_are_usage_errors(words: list[str], tmp_path: Path) -> None:
+    result = run("draw", CAFFEINE, "-o", str(tmp_path / "x.svg"), *words)
+    assert result.exit_code == 2, result.output
+    assert f"'{words[0]}'" in result.stderr
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.filterwarnings("error")
+def test_an_eye_among_the_atoms_is_told_in_one_line(tmp_path: Path) -> None:
+    result = run("draw", CAFFEINE, "-o", str(tmp_path / "x.svg"), "--perspective", "2")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("molviz: ") and "expected a distance above 2.24" in result.stderr
+
+
+@pytest.mark.parametrize("text", ["[lines]\n", "lines = 3\n", "[colors]\nelement = 3\n", "x = [\n"])
+def test_a_style_that_is_none_is_told_with_its_name(tmp_path: Path, text: str) -> None:
+    style = tmp_path / "mine.toml"
+    style.write_text(text, encoding="utf-8")
+    result = run("draw", CAFFEINE, "-o", str(tmp_path / "x.svg"), "--style", str(style))
+    assert result.exit_code == 1
+    assert result.stderr.startswith(f"molviz: {style}: not a style: ")
+
+
+def test_a_model_number_in_other_digits_is_no_number(tmp_path: Path) -> None:
+    result = run("draw", CAFFEINE, "-o", str(tmp_path / "x.svg"), "--model", "²")
+    assert result.exit_code == 1 and "no model or frame '²'" in result.stderr
+
+
+def test_discs_of_several_inputs_do_not_overwrite_each_other(tmp_path: Path) -> None:
+    words = ["hidden-lines", CAFFEINE, PROTEIN, "--model", "discs", "-o", str(tmp_path / "one.svg")]
+    assert run(*words).exit_code == 2
+    assert not list(tmp_path.iterdir())
+
+
+def test_discs_show_one_model_and_json_is_of_discs(tmp_path: Path) -> None:
+    two = tmp_path / "two.xyz"
+    two.write_text("1\n\nC 0 0 0\n" * 2, encoding="utf-8")
+    result = run("hidden-lines", str(two), "--model", "discs", "--model", "all", "--json")
+    assert result.exit_code == 1 and "expected --model NUMBER" in result.stderr
+    assert run("hidden-lines", CAFFEINE, "--json", "-o", str(tmp_path / "x.svg")).exit_code == 2
+
+
+def test_an_input_taken_for_a_fill_is_named() -> None:
+    assert "no fill 'mine.xyz'" in run("hidden-lines", "--fill", "mine.xyz").stderr
+
+
+def test_atoms_smaller_than_a_pixel_are_told(tmp_path: Path) -> None:
+    far = tmp_path / "far.xyz"
+    far.write_text("2\n\nC -1e8 0 0\nC 1e8 0 0\n", encoding="utf-8")
+    result = run("draw", str(far), "-o", str(tmp_path / "x.svg"))
+    assert result.exit_code == 0
+    assert f"molviz: {far}: the atoms extend over 2e+08 Å" in result.stderr
+    assert "extend" not in run("draw", PROTEIN, "-o", str(tmp_path / "y.svg")).stderr
+
+
+def test_a_name_too_long_for_a_file_is_told() -> None:
+    result = run("draw", CAFFEINE, "-o", "x" * 300 + ".svg")
+    assert result.exit_code == 1 and "cannot be written" in result.stderr
+
+
+@pytest.mark.parametrize("words", ["draw - -o - --to svg --format xyz", "info - --format xyz", "draw --help"])
+@pytest.mark.parametrize("ends", ["<&-", ">&- ", "2>&-", "> /dev/full"])
+def test_closed_or_full_ends_leave_no_traceback(words: str, ends: str) -> None:
+    shell = f"exec 0< '{CAFFEINE}'; '{sys.executable}' -m molviz {words} {ends}"
+    done = subprocess.run(["sh", "-c", shell], capture_output=True, text=True, check=False)
+    assert done.returncode in (0, 1)
+    assert "Traceback" not in done.stderr and "Exception" not in done.stderr
+    if ends == "> /dev/full":
+        assert done.returncode == 1 and "cannot be written" in done.stderr
+
+
+@pytest.mark.parametrize("scheme", ["element", "chain"])
+def test_names_that_mean_something_to_a_format_stay_names(tmp_path: Path, scheme: str) -> None:
+    rows = [
+        f"HETATM{number:5d} {name:<4} {residue} {chain}   1{insertion}   {number * 2.5:8.3f}   0.000   0.000"
+        f"  1.00  0.00           C"
+        for number, (name, residue, chain, insertion) in enumerate(
+            [("<&>", 'A">', "<", " "), ("C)(\\", 'A">', "<", "A"), ("--", "]]>", "&", " "), ("--", "]]>", "&", "A"),
+             ("CA", "%()", "'", " "), ("CA", "%()", "(", " ")]
+        )
+    ]  # fmt: skip
+    odd = tmp_path / "odd<&>.pdb"
+    odd.write_text("\n".join(rows) + "\n", encoding="ascii")
+    root = ElementTree.fromstring(drawn(tmp_path, str(odd), "--color-by", scheme, suffix=".svg"))
+    ids = [element.get("id") for element in root.iter() if element.get("id")]
+    assert len(ids) == len(set(ids)) > len(rows)
+    assert drawn(tmp_path, str(odd), suffix=".pdf").startswith(b"%PDF")
+    assert all(32 <= byte < 127 or byte == 10 for byte in drawn(tmp_path, str(odd), suffix=".ps"))

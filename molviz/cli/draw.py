@@ -12,11 +12,11 @@ from molviz.cli.options import (
     eye_options,
     input_options,
     load_and_warn,
+    only_model,
     page_options,
     wanted_from,
 )
 from molviz.cli.progress import Progress
-from molviz.errors import InputError
 from molviz.picture.coloring import CONTINUOUS, SCHEMES
 from molviz.picture.compose import Look
 from molviz.picture.page import Page
@@ -70,13 +70,18 @@ def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     wanted, look, eye = wanted_from(options), look_from(options), eye_from(options)
     form = Form(suffix_of(options["output"], options["to"]), options["plotter"], options["paper"])
     output = options["output"] or "-"
-    if len(inputs) > 1 and len({target_of(source, output, form.suffix) for source in inputs}) < len(inputs):
-        raise click.UsageError("several inputs need several outputs: -o FOLDER/ or -o 'FOLDER/{stem}.svg'")
+    refuse_shared_targets(inputs, output, form.suffix)
 
     def one(source: str) -> None:
         _draw_one(source, target_of(source, output, form.suffix), form, wanted, look, eye, options)
 
     for_each(inputs, one)
+
+
+def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str) -> None:
+    """Raise UsageError where one input's drawing would overwrite another's."""
+    if len({target_of(source, output, suffix) for source in inputs}) < len(inputs):
+        raise click.UsageError("several inputs need several outputs: -o FOLDER/ or -o 'FOLDER/{stem}.svg'")
 
 
 def _draw_one(
@@ -85,10 +90,9 @@ def _draw_one(
     began, progress = time.monotonic(), Progress(STAGES)
     progress("reading")
     loaded = load_and_warn(source, wanted, options["quiet"], options["strict"])
-    if len(loaded) > 1:
-        raise InputError(f"has {len(loaded)} models, and a picture shows one; expected --model NUMBER", source)
+    one = only_model(loaded)
     try:
-        drawing = draw(loaded[0], form, look, eye, options["method"], options["check"], progress)
+        drawing = draw(one, form, look, eye, options["method"], options["check"], progress)
     finally:
         progress.close()
     save(target, drawing.data)

@@ -14,10 +14,11 @@ from molviz.cli.draw import (
     eye_from,
     output_options,
     plotter_options,
+    refuse_shared_targets,
     run_drawings,
     suffix_of,
 )
-from molviz.cli.options import POSITIVE, applied, load_and_warn, part_options, wanted_from
+from molviz.cli.options import POSITIVE, applied, load_and_warn, only_model, part_options, wanted_from
 from molviz.cli.progress import Progress
 from molviz.picture.disc_picture import DiscLook
 from molviz.pipeline.draw import Eye
@@ -73,15 +74,17 @@ def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
       molviz hidden-lines --random 1000 -o gas.svg           the drawing
       molviz hidden-lines --text CSE -o cse.hpgl             the same for a pen plotter
     """
-    if sum([bool(inputs), options["count"] is not None, options["text"] is not None]) != 1:
-        raise click.UsageError("nothing to draw, or two things; expected INPUT, --random or --text")
     if options["fill"] not in ("flat", "none"):
         raise click.UsageError(f"no fill {options['fill']!r}; expected flat or none")
+    if sum([bool(inputs), options["count"] is not None, options["text"] is not None]) != 1:
+        raise click.UsageError("nothing to draw, or two things; expected INPUT, --random or --text")
     kind = _kind(options)
     if not inputs:
         _discs(options["output"], partial(_scene, options), options)
     elif kind == "discs":
         _molecules_as_discs(inputs, options)
+    elif options["as_json"]:
+        raise click.UsageError("--json tells the statistics of discs; expected --model discs, --random or --text")
     else:
         run_drawings(inputs, options)
 
@@ -98,6 +101,8 @@ def _kind(options: dict[str, Any]) -> str:
 def _molecules_as_discs(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     wanted, eye, output = wanted_from(options), eye_from(options), options["output"]
     suffix = suffix_of(output, options["to"]) if output else ""
+    if output:
+        refuse_shared_targets(inputs, output, suffix)
 
     def one(source: str) -> None:
         target = target_of(source, output, suffix) if output else None
@@ -137,7 +142,7 @@ def _scene(options: dict[str, Any]) -> HiddenDiscs:
 
 def _molecule(source: str, wanted: Wanted, eye: Eye, options: dict[str, Any]) -> HiddenDiscs:
     loaded = load_and_warn(source, wanted, options["quiet"], options["strict"])
-    return molecule_discs(loaded[0], eye, options["grid"])
+    return molecule_discs(only_model(loaded), eye, options["grid"])
 
 
 def _summary(target: str, scene: HiddenDiscs, size: int, seconds: float) -> str:

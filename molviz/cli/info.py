@@ -51,4 +51,4 @@ def _as_text(result: dict[str, Any]) -> str:
         ("intersecting spheres", f"{result['max_neighbours']} at most, {result['mean_neighbours']:.2f} on average"),
         ("components", str(result["components"])),
     ]
-    return "\n".join(f"{name:<22}{text}" for name, text in rows)
+    return "\n".join(f"{name:<21} {text}" for name, text in rows)

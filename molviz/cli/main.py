@@ -1,6 +1,7 @@
 """The group of all commands, and what a user sees when something is wrong."""
 
 import importlib
+import os
 import sys
 from typing import Any
 
@@ -37,9 +38,17 @@ class Commands(click.Group):
             return super().main(*args, **kwargs)
         except InputError as wrong:
             click.echo(f"molviz: {wrong}", err=True)
+        except OSError as wrong:
+            click.echo(f"molviz: standard output cannot be written: {wrong.strerror}", err=True)
+            _forget_output()
         except MemoryError:
             click.echo("molviz: not enough memory for this input", err=True)
         sys.exit(1)
+
+
+def _forget_output() -> None:
+    """Let what is left in the buffer go nowhere: Python would try to write it once more at its end, and complain."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})

@@ -1,5 +1,6 @@
 """Options that several commands share: click's words become values of the pipeline."""
 
+import math
 import sys
 from collections.abc import Callable
 from typing import Any, TypeAlias
@@ -15,6 +16,7 @@ from molviz.pipeline.inputs import Loaded, Wanted, load
 
 Decorator: TypeAlias = Callable[[Callable[..., Any]], Any]
 FORMATS = ("pdb", "mmcif", "xyz", "extxyz", "xyzr")
+SMALLEST, LARGEST = 1e-6, 1e9  # of any number given as an option: what lies outside has no picture in doubles
 
 
 class Parsed(click.ParamType[Any]):
@@ -33,12 +35,26 @@ class Parsed(click.ParamType[Any]):
             self.fail(str(wrong), param, ctx)
 
 
+class Number(click.FloatRange):
+    """A finite number in a range; click alone lets ``nan`` pass, which is never out of range."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number, or fail with click's usage error."""
+        number: float = super().convert(value, param, ctx)
+        if math.isnan(number):
+            self.fail(f"{value!r} is not a number", param, ctx)
+        return number
+
+
 def parse_rotation(text: str) -> tuple[str, float]:
     """Return axis and degrees of ``x,30``."""
     axis, comma, degrees = text.partition(",")
     if axis.strip().lower() not in ("x", "y", "z") or not comma:
         raise ValueError(f"{text!r} is not a rotation; expected an axis and degrees, for example x,30")
-    return axis.strip().lower(), float(degrees)
+    turn = float(degrees)
+    if not abs(turn) < LARGEST:
+        raise ValueError(f"{degrees!r} are no degrees; expected a number of at most {LARGEST:g}")
+    return axis.strip().lower(), turn
 
 
 def parse_background(text: str) -> Color | None:
@@ -49,7 +65,8 @@ def parse_background(text: str) -> Color | None:
 LENGTH = Parsed("length", parse_length)
 ROTATION = Parsed("axis,degrees", parse_rotation)
 BACKGROUND = Parsed("color", parse_background)
-POSITIVE = click.FloatRange(min=0, min_open=True)
+POSITIVE = Number(min=SMALLEST, max=LARGEST)
+NOT_NEGATIVE = Number(min=0, max=LARGEST)
 
 
 def applied(*options: Decorator) -> Decorator:
@@ -72,7 +89,7 @@ part_options = applied(
     click.option("--chain", metavar="A,B", help="Keep these chains."),
     click.option("--radii", default=DEFAULT, show_default=True, metavar="NAME|FILE", help="Table of radii."),
     click.option("--scale-radii", type=POSITIVE, default=1.0, metavar="X", help="Multiply all radii."),
-    click.option("--probe", type=click.FloatRange(min=0), default=0.0, metavar="R", help="Add to all radii, in Å."),
+    click.option("--probe", type=NOT_NEGATIVE, default=0.0, metavar="R", help="Add to all radii, in Å."),
     click.option("--format", "format_", type=click.Choice(FORMATS), help="Input format, where - is read."),
     click.option("--quiet", is_flag=True, help="No summary line and no warnings."),
     click.option("--strict", is_flag=True, help="Warnings become errors."),
@@ -95,8 +112,8 @@ page_options = applied(
     click.option("--margin", type=Parsed("length", lambda text: 0.0 if text == "0" else parse_length(text))),
     click.option("--page", type=click.Choice(["fit", *PAPER]), default="fit", show_default=True, help="Page size."),
     click.option("--background", type=BACKGROUND, default="none", show_default=True, help="Colour, or none."),
-    click.option("--outline", type=click.FloatRange(min=0), metavar="W", help="Width of outlines, pt; 0 for none."),
-    click.option("--crease", type=click.FloatRange(min=0), metavar="W", help="Width of creases, pt; 0 for none."),
+    click.option("--outline", type=NOT_NEGATIVE, metavar="W", help="Width of outlines, pt; 0 for none."),
+    click.option("--crease", type=NOT_NEGATIVE, metavar="W", help="Width of creases, pt; 0 for none."),
 )
 
 
@@ -119,7 +136,7 @@ def wanted_from(options: dict[str, Any]) -> Wanted:
 
 def load_and_warn(source: str, wanted: Wanted, quiet: bool, strict: bool) -> list[Loaded]:
     """Return the wanted models; warnings go to standard error, or are raised as InputError if strict."""
-    data = sys.stdin.buffer.read() if source == "-" else None
+    data = _standard_input() if source == "-" else None
     loaded = load(source, wanted, data)
     warnings = dict.fromkeys(warning for one in loaded for warning in one.warnings)
     for warning in warnings:
@@ -128,3 +145,17 @@ def load_and_warn(source: str, wanted: Wanted, quiet: bool, strict: bool) -> lis
         if not quiet:
             click.echo(f"molviz: {warning}", err=True)
     return loaded
+
+
+def _standard_input() -> bytes:
+    if sys.stdin is None:  # closed by the caller
+        raise InputError("standard input is closed; expected the content of a file", "-")
+    return sys.stdin.buffer.read()
+
+
+def only_model(loaded: list[Loaded]) -> Loaded:
+    """Return the one model that a picture shows; raises InputError where there are more."""
+    if len(loaded) > 1:
+        count = len(loaded)
+        raise InputError(f"has {count} models, and a picture shows one; expected --model NUMBER", loaded[0].source)
+    return loaded[0]

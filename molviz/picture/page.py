@@ -9,6 +9,7 @@ from molviz.arrays import Floats
 POINTS = {"pt": 1.0, "mm": 72 / 25.4, "cm": 720 / 25.4, "in": 72.0, "px": 0.75}
 PAPER = {"a4": (210 * POINTS["mm"], 297 * POINTS["mm"]), "letter": (612.0, 792.0)}
 USUAL_SIZE = 14 * POINTS["cm"]  # the longer side of a drawing whose size nobody asked for
+LARGEST = 1e6  # points of any length, 350 m
 LARGEST_SCALE = 40.0  # points per ångström of such a drawing
 USUAL_MARGIN = {"fit": 4.0, "a4": 36.0, "letter": 36.0}
 
@@ -66,7 +67,10 @@ def parse_length(text: str) -> float:
     Raises ValueError for anything else and for lengths that are not positive.
     """
     unit = text[-2:] if text[-2:] in POINTS else ""
-    value = float(text.removesuffix(unit)) * POINTS.get(unit, 1.0)
-    if not 0 < value < 1e6:
-        raise ValueError("a length must be positive")
+    try:
+        value = float(text.removesuffix(unit)) * POINTS.get(unit, 1.0)
+    except ValueError:
+        raise ValueError(f"{text!r} is not a length; expected a number and one of {', '.join(POINTS)}") from None
+    if not 0 < value < LARGEST:
+        raise ValueError(f"{text!r} is not a length for a page; expected more than 0 and less than {LARGEST:g} points")
     return value

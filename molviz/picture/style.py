@@ -50,7 +50,9 @@ def load_style(name: str) -> Style:
         return _style(tomllib.loads(path.read_text(encoding="utf-8")))
     except OSError:
         raise InputError(f"no such style or file; expected one of {', '.join(STYLES)} or a TOML file", name) from None
-    except (KeyError, TypeError, ValueError) as wrong:
+    except KeyError as missing:
+        raise InputError(f"not a style: it lacks {missing}; expected what styles/default.toml has", name) from None
+    except (AttributeError, TypeError, ValueError) as wrong:
         raise InputError(f"not a style: {wrong}", name) from None
 
 

@@ -14,6 +14,8 @@ from molviz.model.selection import is_hydrogen, is_water, select
 from molviz.model.spheres import Spheres, spheres_of
 from molviz.read import Reading, read
 
+FAR_APART = 4000.0  # radii: wider pictures have more pixels than a screen, if each atom is to have two
+
 
 @dataclass(frozen=True)
 class Wanted:
@@ -57,7 +59,7 @@ def _model_numbers(reading: Reading, model: str) -> list[int]:
     count = len(reading.models)
     if model == "all":
         return list(range(1, count + 1))
-    if model.isdigit() and 1 <= int(model) <= count:
+    if model.isdecimal() and 1 <= int(model) <= count:
         return [int(model)]
     raise InputError(f"no model or frame {model!r}; the file has {count}, numbered from 1", reading.source)
 
@@ -68,6 +70,7 @@ def _loaded(reading: Reading, number: int, wanted: Wanted) -> Loaded:
         whole = reading.assembly(wanted.assembly, number - 1)
     molecule = _named(_kept(whole, wanted, reading.source), reading.source)
     spheres, warnings = spheres_of(molecule, wanted.radii, wanted.scale_radii, wanted.probe)
+    warnings += _far_apart(spheres)
     told = tuple(f"{reading.source}: {warning}" for warning in warnings)
     count = len(reading.models)
     return Loaded(
@@ -89,6 +92,13 @@ def _kept(molecule: Molecule, wanted: Wanted, source: str) -> Molecule:
         chains = ", ".join(dict.fromkeys(molecule.chain.tolist()))
         raise InputError(f"no atoms are left by the selection; the chains are {chains or 'not named'}", source)
     return molecule if keep.all() else molecule.take(np.flatnonzero(keep))
+
+
+def _far_apart(spheres: Spheres) -> tuple[str, ...]:
+    extent = float(np.max(np.ptp(spheres.center, axis=0)))
+    if extent <= FAR_APART * float(spheres.radius.max()):
+        return ()
+    return (f"the atoms extend over {extent:.3g} Å: in a picture of all, each is smaller than a pixel",)
 
 
 def _named(molecule: Molecule, source: str) -> Molecule:

@@ -1,5 +1,6 @@
 """Where results go: one file, a folder, a pattern or standard output; whole or not at all."""
 
+import errno
 import os
 import sys
 import tempfile
@@ -33,7 +34,7 @@ def stem_of(source: str) -> str:
 
 def target_of(source: str, output: str, suffix: str) -> str:
     """Return the file an input is written to: ``output`` with ``{stem}`` replaced, or a file in the folder it names."""
-    if output.endswith("/") or Path(output).is_dir():
+    if output.endswith("/") or os.path.isdir(output):  # noqa: PTH112 (Path.is_dir raises for names too long)
         return str(Path(output) / f"{stem_of(source)}{suffix}")
     return output.replace("{stem}", stem_of(source))
 
@@ -43,16 +44,24 @@ def save(target: str, data: bytes) -> None:
 
     An existing file is untouched when anything fails; raises InputError naming the target then.
     """
-    if target == "-":
-        sys.stdout.buffer.write(data)
-        sys.stdout.buffer.flush()
-        return
     path = Path(target)
     try:
+        if target == "-":
+            _print(data)
+            return
         path.parent.mkdir(parents=True, exist_ok=True)
         _replace(path, data)
+    except BrokenPipeError:
+        raise  # the reader has enough: no error to tell
     except OSError as wrong:
         raise InputError(f"cannot be written: {wrong.strerror}", target) from None
+
+
+def _print(data: bytes) -> None:
+    if sys.stdout is None:
+        raise OSError(errno.EBADF, "standard output is closed")
+    sys.stdout.buffer.write(data)
+    sys.stdout.buffer.flush()
 
 
 def _replace(path: Path, data: bytes) -> None:

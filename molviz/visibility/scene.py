@@ -64,25 +64,31 @@ def in_one_view(spheres: Spheres, view: View, query: Callable[[Scene, View], T])
 
     Raises InputError if an eye lies inside the molecule, or (never seen) if no perturbation helps.
     """
-    if view.distance is not None:
-        _refuse_eye_among(spheres, view)
+    _refuse_eye_among(spheres, view)
     for attempt in range(ATTEMPTS):
         try:
             return query(prepared(spheres, attempt, view), view)
         except Degenerate:
             continue
-    raise InputError(f"the spheres stay in special position after {ATTEMPTS} perturbations")
+    nearer = "" if view.distance is None else "; expected an eye less far away, or a parallel view"
+    raise InputError(f"the spheres stay in special position after {ATTEMPTS} perturbations{nearer}")
 
 
 def _refuse_eye_among(spheres: Spheres, view: View) -> None:
+    if view.distance is None:
+        return
     seen = eye_coordinates(spheres, view)
     nearest = float(np.max(seen.center[:, 2] + seen.radius))
     if nearest >= 0:
-        needed = (view.distance or 0.0) + nearest
+        needed = view.distance + nearest
         raise InputError(f"the eye is not in front of all atoms; expected a distance above {needed:.2f} Å")
 
 
 def extent(spheres: Spheres, view: View) -> tuple[Floats, Floats]:
-    """Return the corners (2,), (2,) of the bounding box of all spheres' images on the page, in ångström."""
+    """Return the corners (2,), (2,) of the bounding box of all spheres' images on the page, in ångström.
+
+    Raises InputError if an eye is not in front of all of them.
+    """
+    _refuse_eye_among(spheres, view)
     center, half = outlines(eye_coordinates(spheres, view), projection_of(view))
     return (center - half).min(axis=0), (center + half).max(axis=0)
