@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from molviz.arrays import Floats
+from molviz.arrays import Floats, Ints
 from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT, radii
 
@@ -12,6 +12,10 @@ class Spheres(NamedTuple):
 
     center: Floats  # (n, 3) ångström
     radius: Floats  # (n,) ångström
+
+    def take(self, rows: Ints) -> "Spheres":
+        """Return the given spheres, in that order."""
+        return Spheres(self.center[rows], self.radius[rows])
 
 
 def spheres_of(

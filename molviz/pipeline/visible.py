@@ -8,6 +8,7 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT
 from molviz.model.spheres import spheres_of
+from molviz.vectors import cross
 from molviz.visibility.checks import check_map
 from molviz.visibility.half_edges import loop_areas
 from molviz.visibility.map import BACKGROUND, VisibilityMap
@@ -62,7 +63,7 @@ def _disc_areas(found: VisibilityMap, view: View) -> Floats:
     horizon = np.flatnonzero(found.circles.second < 0)
     angle = np.zeros(len(horizon))
     image = projection_of(view).page_arcs(found.circles, horizon, angle, angle)
-    return np.asarray(np.pi * np.abs(image.u[:, 0] * image.v[:, 1] - image.u[:, 1] * image.v[:, 0]))
+    return np.asarray(np.pi * np.abs(cross(image.u, image.v)))
 
 
 def _depth_jump(found: VisibilityMap, view: View) -> Floats:

@@ -5,6 +5,7 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.errors import InputError
+from molviz.geometry.components import components
 from molviz.geometry.intervals import Intervals, above, gaps
 from molviz.geometry.rows import expand
 from molviz.visibility.half_edges import loop_areas, signed_areas
@@ -38,20 +39,7 @@ def euler_defect(found: VisibilityMap) -> int:
     """
     vertices, number = np.unique(np.append(found.origin, found.target), return_inverse=True)
     one, other = number[: len(found.origin)], number[len(found.origin) :]
-    return int(len(vertices) - len(found.start) + len(found.loops.face) - 2 * _components(one, other, len(vertices)))
-
-
-def _components(one: Ints, other: Ints, count: int) -> int:
-    label = np.arange(count)
-    while True:
-        least = label.copy()
-        np.minimum.at(least, one, label[other])
-        np.minimum.at(least, other, label[one])
-        np.minimum.at(least, label, least.copy())
-        least = least[least]
-        if np.array_equal(least, label):
-            return len(np.unique(label))
-        label = least
+    return int(len(vertices) - len(found.start) + len(found.loops.face) - 2 * components(one, other, len(vertices)))
 
 
 def area_difference(found: VisibilityMap, view: View) -> float:

@@ -21,6 +21,7 @@ from molviz.geometry.rows import expand, offsets
 from molviz.model.spheres import Spheres
 from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, foremost, nearer
 from molviz.visibility.discs import DiscArcs
+from molviz.visibility.half_edges import cycles
 
 CLEAR = 1e-11  # radians, or of a radius: far more than rounding, far less than a displacement makes of a coincidence
 DISPLACEMENT = 1e-6  # of the smallest radius: no line is so thin
@@ -78,7 +79,7 @@ def visible_regions(spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscAr
     """
     junctions = _junctions(spheres, arcs)
     pieces = _cut(arcs, junctions)
-    edge, loop_start = _cycles(_next_edges(arcs, junctions, pieces))
+    edge, loop_start = cycles(_next_edges(arcs, junctions, pieces))
     disc = _discs_of_loops(spheres, grid, lists, arcs, pieces, edge, loop_start)
     return _assembled(arcs, pieces, edge, loop_start, disc)
 
@@ -162,22 +163,6 @@ def _next_edges(arcs: DiscArcs, junctions: _Junctions, pieces: _Pieces) -> Ints:
     following[2 * arc_start[start] + 1] = 2 * before[start] + 1
     following[2 * after[start] + 1] = 2 * arc_start[start]
     return following
-
-
-def _cycles(following: Ints) -> tuple[Ints, Ints]:
-    """The cycles of a permutation, one after the other, each from its lowest member; and where each begins."""
-    successor = following.tolist()
-    seen = bytearray(len(successor))
-    order: list[int] = []
-    begins = [0]
-    for member in range(len(successor)):
-        while not seen[member]:
-            seen[member] = 1
-            order.append(member)
-            member = successor[member]  # noqa: PLW2901
-        if len(order) > begins[-1]:
-            begins.append(len(order))
-    return np.array(order, dtype=np.int64), np.array(begins, dtype=np.int64)
 
 
 def _discs_of_loops(

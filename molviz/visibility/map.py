@@ -57,7 +57,7 @@ def visibility_map(
     ``seen`` are the boundary's spheres in eye coordinates; the map numbers spheres by their place in ``wanted``. Raises
     ``Degenerate`` where the spheres are not in general position.
     """
-    spheres = Spheres(seen.center[wanted], seen.radius[wanted])
+    spheres = seen.take(wanted)
     creases, hidden = _creases_between(boundary, wanted, view)
     horizons = projection.horizons(spheres)
     circles = merged(creases, horizons)

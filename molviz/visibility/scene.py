@@ -37,7 +37,7 @@ def prepared(spheres: Spheres, attempt: int = 0, view: View | None = None) -> Sc
     moved, row = general_position(spheres, attempt)
     if view is not None:
         keep = np.flatnonzero(possibly_visible(eye_coordinates(moved, view), projection_of(view)))
-        moved, row = Spheres(moved.center[keep], moved.radius[keep]), row[keep]
+        moved, row = moved.take(keep), row[keep]
     return Scene(union_boundary(moved), row)
 
 
