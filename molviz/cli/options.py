@@ -11,10 +11,9 @@ from molviz.model.radii import DEFAULT
 from molviz.picture.page import PAPER, parse_length
 from molviz.picture.picture import Color
 from molviz.picture.style import parse_color
-from molviz.pipeline.inputs import Loaded, Wanted, load
+from molviz.pipeline.inputs import FORMATS, Loaded, Wanted, load
 
 Decorator: TypeAlias = Callable[[Callable[..., Any]], Any]
-FORMATS = ("pdb", "mmcif", "xyz", "extxyz", "xyzr")
 
 
 class Parsed(click.ParamType[Any]):

@@ -12,7 +12,10 @@ from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT
 from molviz.model.selection import is_hydrogen, is_water, select
 from molviz.model.spheres import Spheres, spheres_of
+from molviz.read import FORMATS as READERS
 from molviz.read import Reading, read
+
+FORMATS = tuple(READERS)
 
 
 @dataclass(frozen=True)

@@ -57,8 +57,7 @@ def area_difference(found: VisibilityMap, view: View) -> float:
 
 def _union_of_discs(found: VisibilityMap) -> float:
     center, radius = found.spheres.center[:, :2], found.spheres.radius
-    horizons = found.circles.take(np.flatnonzero(found.circles.second < 0))
-    near = overlaps(discs_of(horizons, projection_of(View(np.eye(3), np.zeros(3)))))
+    near = overlaps(discs_of(found.horizons(), projection_of(View(np.eye(3), np.zeros(3)))))
     own, entry = expand(near.start[:-1], near.start[1:])
     toward = center[near.item[entry]] - center[own]
     flat = np.sum(toward**2, axis=1) + radius[own] ** 2 - radius[near.item[entry]] ** 2
@@ -94,8 +93,7 @@ def faces_not_seen(found: VisibilityMap, view: View) -> Ints:
 def _nearest_surface(found: VisibilityMap, own: Ints, points: Floats, view: View) -> tuple[Floats, Ints]:
     """The sphere seen at each page point, on or beside the image of sphere ``own``, and by how much it is nearer."""
     projection = projection_of(view)
-    horizons = found.circles.take(np.flatnonzero(found.circles.second < 0))
-    near = overlaps(discs_of(horizons, projection))
+    near = overlaps(discs_of(found.horizons(), projection))
     row, entry = expand(near.start[own], near.start[own + 1])
     row, sphere = np.append(row, np.arange(len(own))), np.append(near.item[entry], own)
     surface = projection.surface(found.spheres, sphere, points[row])

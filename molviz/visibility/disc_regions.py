@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
+from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
 from molviz.geometry.rows import expand, offsets
 from molviz.model.spheres import Spheres
@@ -25,10 +26,6 @@ from molviz.visibility.half_edges import cycles
 
 CLEAR = 1e-11  # radians, or of a radius: far more than rounding, far less than a displacement makes of a coincidence
 DISPLACEMENT = 1e-6  # of the smallest radius: no line is so thin
-
-
-class GeneralPositionError(ArithmeticError):
-    """Perimeters that coincide, touch or meet three at a point: how arcs join is then a matter of rounding."""
 
 
 class DiscRegions(NamedTuple):
@@ -74,7 +71,7 @@ def displaced(spheres: Spheres, seed: int) -> Spheres:
 def visible_regions(spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscArcs) -> DiscRegions:
     """Return the visible regions of discs whose visible arcs are given.
 
-    Regions whose own perimeter is hidden are included (his Fig. 7). Raises ``GeneralPositionError`` where arcs do
+    Regions whose own perimeter is hidden are included (his Fig. 7). Raises ``Degenerate`` where arcs do
     not join, or too closely to be sure; a displaced copy of the discs has the same regions to within the displacement.
     """
     junctions = _junctions(spheres, arcs)
@@ -101,7 +98,7 @@ def _junctions(spheres: Spheres, arcs: DiscArcs) -> _Junctions:
     order = np.lexsort((offset, host))
     junctions = _Junctions(host[order], offset[order], arc[order], at_end[order])
     if np.any(arcs.circle[host] != over) or not _apart(arcs, junctions):
-        raise GeneralPositionError
+        raise Degenerate
     return junctions
 
 
@@ -178,7 +175,7 @@ def _discs_of_loops(
     lowest = np.minimum.reduceat(np.where(forward, circle, NOBODY), loop_start[:-1])
     highest = np.maximum.reduceat(np.where(forward, circle, -1), loop_start[:-1])
     if np.any((highest >= 0) & (lowest != highest)):
-        raise GeneralPositionError
+        raise Degenerate
     bare = np.flatnonzero(highest < 0)
     loop = np.repeat(np.arange(len(highest)), np.diff(loop_start))
     by_length = np.lexsort((spheres.radius[circle] * pieces.sweep[edge // 2], loop))
@@ -202,7 +199,7 @@ def _next_behind(spheres: Spheres, grid: Grid, lists: CellLists, circle: Ints, a
     disc = np.concatenate([lists.item[place], lists.blocker[cell[blocked]]])
     depth = spheres.radius[disc] - np.hypot(spheres.center[disc, 0] - x[point], spheres.center[disc, 1] - y[point])
     if np.any((np.abs(depth) < CLEAR * spheres.radius[disc]) & (disc != circle[point])):
-        raise GeneralPositionError
+        raise Degenerate
     behind = (depth > 0) & nearer(spheres, circle[point], disc)
     found = foremost(spheres.center[:, 2], disc[behind], point[behind], len(circle))[1]
     return np.where(found == NOBODY, -1, found)

@@ -10,14 +10,11 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.curves import PlaneArcs
+from molviz.geometry.general_position import Degenerate
 from molviz.geometry.rows import lists_taken
 from molviz.vectors import cross
 
 UNUSED = -2  # label of a half-edge that bounds nothing
-
-
-class Degenerate(Exception):  # noqa: N818 - not an error: the caller asks for the next perturbation
-    """The spheres are not in general position: some vertex does not balance."""
 
 
 class Loops(NamedTuple):

@@ -48,6 +48,10 @@ class VisibilityMap(NamedTuple):
         """Return which arcs are creases; the others are horizons."""
         return np.asarray(self.circles.second[self.circle] >= 0)
 
+    def horizons(self) -> Circles:
+        """Return the horizons, in the order of the spheres."""
+        return self.circles.take(np.flatnonzero(self.circles.second < 0))
+
 
 def visibility_map(
     boundary: Boundary, seen: Spheres, wanted: Ints, view: View, projection: Projection

@@ -85,6 +85,12 @@ def projection_of(view: View) -> Projection:
     return Parallel() if view.distance is None else Central(view.distance)
 
 
+def images_of(circles: Circles, projection: Projection) -> PlaneArcs:
+    """Return the images of whole circles (m,), as ellipses without a part of them named: their sweep is nought."""
+    angle = np.zeros(len(circles.first))
+    return projection.page_arcs(circles, np.arange(len(angle)), angle, angle)
+
+
 def eye_coordinates(spheres: Spheres, view: View) -> Spheres:
     """Return the spheres in the coordinates that ``projection_of(view)`` works in."""
     seen = view.of(spheres)

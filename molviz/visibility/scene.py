@@ -8,16 +8,13 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.errors import InputError
 from molviz.geometry.boundary import Boundary, union_boundary
-from molviz.geometry.general_position import general_position
+from molviz.geometry.general_position import first_general, general_position
 from molviz.model.spheres import Spheres
 from molviz.visibility.culling import outlines, possibly_visible
-from molviz.visibility.half_edges import Degenerate
 from molviz.visibility.map import VisibilityMap, visibility_map
 from molviz.visibility.painter import Pieces, painter_pieces
 from molviz.visibility.projection import eye_coordinates, projection_of
 from molviz.visibility.view import View
-
-ATTEMPTS = 8  # perturbations tried; the second is needed about once in ten thousand pictures
 
 T = TypeVar("T")
 
@@ -66,12 +63,7 @@ def in_one_view(spheres: Spheres, view: View, query: Callable[[Scene, View], T])
     """
     if view.distance is not None:
         _refuse_eye_among(spheres, view)
-    for attempt in range(ATTEMPTS):
-        try:
-            return query(prepared(spheres, attempt, view), view)
-        except Degenerate:
-            continue
-    raise InputError(f"the spheres stay in special position after {ATTEMPTS} perturbations")
+    return first_general(lambda attempt: query(prepared(spheres, attempt, view), view))
 
 
 def _refuse_eye_among(spheres: Spheres, view: View) -> None:

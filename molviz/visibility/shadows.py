@@ -13,7 +13,7 @@ from molviz.model.spheres import Spheres
 from molviz.vectors import dot
 from molviz.visibility.conics import Harmonics, harmonics, roots
 from molviz.visibility.named_arcs import BALL, SHADOW, Hidden
-from molviz.visibility.projection import Linear, Projection
+from molviz.visibility.projection import Linear, Projection, images_of
 
 BLOCK_ROWS = 1 << 16  # (curve, sphere) rows at a time, some forty columns each
 
@@ -27,9 +27,7 @@ class Discs(NamedTuple):
 
 def discs_of(circles: Circles, projection: Projection) -> Discs:
     """Return a disc around the image of each circle, as small as its ellipse's major axis allows."""
-    everything = np.arange(len(circles.first))
-    angle = np.zeros(len(everything))
-    image = projection.page_arcs(circles, everything, angle, angle)
+    image = images_of(circles, projection)
     return Discs(image.c, image.major())
 
 
