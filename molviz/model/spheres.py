@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from molviz.arrays import Floats, Ints
 from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT, radii
@@ -16,6 +18,11 @@ class Spheres(NamedTuple):
     def take(self, rows: Ints) -> "Spheres":
         """Return the given spheres, in that order."""
         return Spheres(self.center[rows], self.radius[rows])
+
+    def box(self) -> tuple[Floats, Floats]:
+        """Return the corners (3,), (3,) of the bounding box of n ≥ 1 balls."""
+        reach = self.radius[:, None]
+        return np.min(self.center - reach, axis=0), np.max(self.center + reach, axis=0)
 
 
 def spheres_of(

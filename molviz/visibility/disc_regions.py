@@ -20,7 +20,7 @@ from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
 from molviz.geometry.rows import expand, offsets
 from molviz.model.spheres import Spheres
-from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, foremost, nearer
+from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, foremost, nearer, on_perimeter
 from molviz.visibility.discs import DiscArcs
 from molviz.visibility.half_edges import cycles
 
@@ -88,10 +88,8 @@ def _junctions(spheres: Spheres, arcs: DiscArcs) -> _Junctions:
     at_end = np.arange(len(arc)) >= len(open_arcs)
     over = np.where(at_end, arcs.after[arc], arcs.before[arc])
     angle = arcs.start[arc] + np.where(at_end, arcs.sweep[arc], 0.0)
-    reach = spheres.radius[arcs.circle[arc]]
-    x = spheres.center[arcs.circle[arc], 0] + reach * np.cos(angle) - spheres.center[over, 0]
-    y = spheres.center[arcs.circle[arc], 1] + reach * np.sin(angle) - spheres.center[over, 1]
-    around = np.mod(np.arctan2(y, x), TURN)
+    x, y = on_perimeter(spheres, arcs.circle[arc], angle)
+    around = np.mod(np.arctan2(y - spheres.center[over, 1], x - spheres.center[over, 0]), TURN)
 
     host = _host(arcs, over, around)
     offset = np.mod(around - arcs.start[host], TURN)
@@ -190,8 +188,7 @@ def _middle(pieces: _Pieces, piece: Ints) -> Floats:
 
 def _next_behind(spheres: Spheres, grid: Grid, lists: CellLists, circle: Ints, angle: Floats) -> Ints:
     """The foremost disc behind a visible point of a perimeter, −1 for none: the cell's blocker or one on its list."""
-    x = spheres.center[circle, 0] + spheres.radius[circle] * np.cos(angle)
-    y = spheres.center[circle, 1] + spheres.radius[circle] * np.sin(angle)
+    x, y = on_perimeter(spheres, circle, angle)
     cell = grid.cell_at(x, y)
     point, place = expand(lists.start[cell], lists.start[cell + 1])
     blocked = np.flatnonzero(lists.blocker[cell] != NOBODY)
