@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Floats, Ints
+from molviz.vectors import dot
 
 
 class PlaneArcs(NamedTuple):
@@ -34,7 +35,7 @@ class PlaneArcs(NamedTuple):
 
     def major(self) -> Floats:
         """Return the major semi-axes (k,): the root of the larger eigenvalue of ``u uᵀ + v vᵀ``."""
-        uu, vv, uv = (np.einsum("ij,ij->i", x, y) for x, y in ((self.u, self.u), (self.v, self.v), (self.u, self.v)))
+        uu, vv, uv = (dot(x, y) for x, y in ((self.u, self.u), (self.v, self.v), (self.u, self.v)))
         return np.asarray(np.sqrt((uu + vv) / 2 + np.hypot((uu - vv) / 2, uv)))
 
     def moved(self, scale: float, shift: Floats) -> "PlaneArcs":

@@ -14,7 +14,7 @@ from tests.oracle import random_spheres
 
 
 @given(st.integers(0, 10_000), st.integers(2, 30), st.floats(1.0, 5.0), st.floats(1, 4))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_free_arcs_are_those_of_testing_every_piece(seed: int, count: int, extent: float, spread: float) -> None:
     spheres = random_spheres(seed, count, extent, spread)
     boundary = union_boundary(spheres)

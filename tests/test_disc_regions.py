@@ -10,7 +10,7 @@ from molviz.model.spheres import Spheres
 from molviz.pipeline.hidden_discs import hide_discs, regions_of
 from molviz.visibility.disc_regions import DiscRegions, visible_regions
 from tests.disc_oracle import TURN, top_disc
-from tests.test_discs import discs_of, random_discs, scene_of
+from tests.disc_scenes import discs_of, random_discs, scene_of
 
 
 def regions(scene: Spheres) -> DiscRegions:

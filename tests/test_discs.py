@@ -10,17 +10,9 @@ from molviz.model.spheres import Spheres
 from molviz.visibility.disc_grid import UNIT_SQUARE, Grid, bounding_square, cell_lists, franklin_count
 from molviz.visibility.discs import DiscArcs, visible_arcs
 from tests import disc_oracle
+from tests.disc_scenes import discs_of, random_discs, scene_of
 
 EQUAL = 1e-9  # radians
-
-
-def scene_of(discs: list[disc_oracle.Disc]) -> Spheres:
-    table = np.array(discs, dtype=float).reshape(-1, 4)
-    return Spheres(table[:, :3], table[:, 3])
-
-
-def discs_of(scene: Spheres) -> list[disc_oracle.Disc]:
-    return [(*map(float, center), float(radius)) for center, radius in zip(*scene, strict=True)]
 
 
 def arcs_on(scene: Spheres, count: int) -> DiscArcs:
@@ -36,15 +28,6 @@ def assert_equal(arcs: DiscArcs, expected: list[list[tuple[float, float]]]) -> N
         wanted = sorted(((start + 1e-7) % (2 * math.pi), sweep) for start, sweep in wanted)
         assert len(found) == len(wanted), f"circle {number}: {found} instead of {wanted}"
         assert not wanted or np.allclose(found, wanted, rtol=0, atol=EQUAL)
-
-
-def random_discs(rng: np.random.Generator) -> Spheres:
-    """Up to 60 discs: of one size, of sizes 50 to 1, or on a lattice with equal depths, touching and coincident."""
-    n, kind = int(rng.integers(1, 60)), rng.integers(3)
-    if kind == 2:
-        return Spheres(rng.integers(0, 6, (n, 3)).astype(float), rng.integers(1, 4, n) / 2.0)
-    radius = np.full(n, 0.15) if kind == 0 else 0.5 * 50.0 ** -rng.random(n)
-    return Spheres(rng.random((n, 3)), radius)
 
 
 @pytest.mark.parametrize("seed", range(300))

@@ -11,8 +11,8 @@ from click.testing import CliRunner, Result
 from molviz.cli import main
 from molviz.picture.disc_picture import DiscLook, whole_circles
 from molviz.pipeline.hidden_discs import LABELS, hide_discs, picture_of, random_discs
+from tests.disc_scenes import scene_of
 from tests.render import needs_ghostscript, render_ps, render_svg
-from tests.test_discs import scene_of
 
 NAMES = [
     "n", "radius", "depth", "grid", "cell_entries", "cells_blocked", "pairs_tested", "pairs_intersecting",

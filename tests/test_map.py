@@ -65,7 +65,7 @@ def euler_defect(found: VisibilityMap) -> int:
 
 
 @given(st.integers(0, 10**6), st.integers(1, 45), st.floats(0.1, 7), st.floats(1, 5))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_the_map_shows_what_is_seen(seed: int, count: int, extent: float, spread: float) -> None:
     view = file_axes(random_spheres(seed, count, extent, spread))
     found = map_of(random_spheres(seed, count, extent, spread), view)
@@ -90,7 +90,7 @@ def test_degenerate_scenes_give_closed_maps(name: str) -> None:
 
 
 @given(st.integers(0, 10**6), st.integers(1, 40))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 def test_a_central_map_is_planar_and_balanced(seed: int, count: int) -> None:
     spheres = random_spheres(seed, count, 5.0, 3.0)
     found = map_of(spheres, file_axes(spheres, distance=25.0))
@@ -100,7 +100,7 @@ def test_a_central_map_is_planar_and_balanced(seed: int, count: int) -> None:
 
 
 @given(st.integers(0, 10**6), st.integers(1, 40), st.floats(0.1, 7), st.floats(1, 5))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_painted_pieces_show_what_is_seen(seed: int, count: int, extent: float, spread: float) -> None:
     spheres = random_spheres(seed, count, extent, spread)
     view = file_axes(spheres)

@@ -173,7 +173,7 @@ def test_a_cube_of_balls_is_the_limit_of_general_position(radius: float) -> None
 
 
 @given(st.integers(0, 10**6), st.sampled_from([1e-10, 1e-9, 1e-8, 1e-6]))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_lattice_points_are_the_limit_of_nearly_lattice_points(seed: int, jitter: float) -> None:
     """Tangent, coincident, equal and nearly equal spheres, and pencils, by chance of few coordinates and radii."""
     random = np.random.default_rng(seed)
@@ -191,7 +191,7 @@ def test_lattice_points_are_the_limit_of_nearly_lattice_points(seed: int, jitter
 
 
 @given(st.integers(0, 10**6))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_random_balls_by_gauss_bonnet_and_by_the_printed_integrals(seed: int) -> None:
     spheres = far_from_pole(varied_spheres(seed))
     measure, arcs = measure_spheres(spheres), all_free_arcs(spheres)
@@ -215,7 +215,6 @@ def test_volume_by_sampling() -> None:
 
 
 @given(st.integers(0, 10_000), st.integers(2, 40), st.floats(0.1, 30))
-@settings(deadline=None)
 def test_moving_reordering_and_scaling(seed: int, count: int, factor: float) -> None:
     spheres = random_spheres(seed, count, 5.0, 3.0)
     order = np.random.default_rng(seed).permutation(count)
@@ -227,7 +226,7 @@ def test_moving_reordering_and_scaling(seed: int, count: int, factor: float) -> 
 
 
 @given(st.integers(0, 10_000), st.integers(2, 12))
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 def test_gradients_are_those_of_finite_differences(seed: int, count: int) -> None:
     spheres = random_spheres(seed, count, 4.0)
     measure = measure_spheres(spheres)

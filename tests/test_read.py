@@ -73,7 +73,7 @@ def test_an_empty_file_is_refused() -> None:
         read("t.pdb", b"")
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.sampled_from(sorted(TEXTS)), st.integers(0, 400), st.integers(0, 8), st.binary(max_size=8))
 def test_damage_is_read_or_refused(format: str, place: int, length: int, damage: bytes) -> None:
     text = TEXTS[format].encode()

@@ -35,7 +35,7 @@ def test_columns() -> None:
     assert molecule.bfactor[0] == 9.5 and np.isnan(molecule.bfactor[1])
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.lists(st.tuples(*[st.floats(-1e5, 1e5)] * 3), min_size=1, max_size=9))
 def test_written_coordinates_come_back(position: list[tuple[float, float, float]]) -> None:
     reading = cif(*(row(xyz=" ".join(map(repr, point))) for point in position))

@@ -39,7 +39,7 @@ coordinate = st.integers(-999_999, 9_999_999).map(lambda k: k / 1000)
 points = st.lists(st.tuples(coordinate, coordinate, coordinate), min_size=1, max_size=20)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(points, st.sampled_from(["\n", "\r\n", "\r"]))
 def test_written_coordinates_come_back(position: list[tuple[float, float, float]], end: str) -> None:
     text = end.join(atom(xyz="".join(f"{value:8.3f}" for value in point)) for point in position).encode()

@@ -17,7 +17,7 @@ number = st.floats(allow_nan=False, allow_infinity=False, width=64)
 frame = st.lists(st.tuples(number, number, number), min_size=1, max_size=6)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(st.lists(frame, min_size=1, max_size=4), st.text("abc =0123456789", max_size=9), st.booleans())
 def test_written_frames_come_back(frames: list[list[tuple[float, float, float]]], comment: str, blank: bool) -> None:
     text = "".join(

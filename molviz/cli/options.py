@@ -12,10 +12,9 @@ from molviz.model.radii import DEFAULT
 from molviz.picture.page import PAPER, parse_length
 from molviz.picture.picture import Color
 from molviz.picture.style import parse_color
-from molviz.pipeline.inputs import Loaded, Wanted, load
+from molviz.pipeline.inputs import FORMATS, Loaded, Wanted, load
 
 Decorator: TypeAlias = Callable[[Callable[..., Any]], Any]
-FORMATS = ("pdb", "mmcif", "xyz", "extxyz", "xyzr")
 SMALLEST, LARGEST = 1e-6, 1e9  # of any number given as an option: what lies outside has no picture in doubles
 
 

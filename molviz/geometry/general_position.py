@@ -6,12 +6,36 @@ arrangements with application to molecular modeling"), drawings are computed for
 reproducible, invisible amount; whoever finds the copy degenerate after all asks for the next one.
 """
 
+from collections.abc import Callable
+from typing import TypeVar
+
 import numpy as np
 
 from molviz.arrays import Floats, Ints
+from molviz.errors import InputError
 from molviz.model.spheres import Spheres
 
 DISPLACEMENT = 5e-5  # of a sphere's radius: 1e-4 Å for an atom, below a file's precision and far above rounding
+ATTEMPTS = 8  # copies tried; of a molecule the second is needed about once in ten thousand pictures
+
+T = TypeVar("T")
+
+
+class Degenerate(Exception):  # noqa: N818 - not an error: the caller asks for the next copy
+    """The spheres are not in general position: how curves join would be a matter of rounding."""
+
+
+def first_general(query: Callable[[int], T]) -> T:
+    """Return the query's answer for the first attempt, from 0, for which it does not raise ``Degenerate``.
+
+    Raises InputError if (never seen) no attempt helps.
+    """
+    for attempt in range(ATTEMPTS):
+        try:
+            return query(attempt)
+        except Degenerate:
+            continue
+    raise InputError(f"the spheres stay in special position after {ATTEMPTS} perturbations")
 
 
 def general_position(spheres: Spheres, attempt: int = 0) -> tuple[Spheres, Ints]:

@@ -46,7 +46,7 @@ def grid_index(spheres: Spheres) -> GridIndex:
     x, y, z = (number[axis][np.searchsorted(slabs[axis], cell[:, axis])] for axis in range(3))
     key = _key(x, y, z, number)
     row = np.argsort(key, kind="stable")
-    ordered = Spheres(spheres.center[row], spheres.radius[row])
+    ordered = spheres.take(row)
     return GridIndex(ordered, row, key[row], slabs, number, side)  # type: ignore[arg-type]
 
 

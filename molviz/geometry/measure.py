@@ -44,6 +44,7 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.boundary import Boundary, union_boundary
 from molviz.geometry.rows import expand
 from molviz.model.spheres import Spheres
+from molviz.vectors import dot
 
 CANDIDATES = 16  # poles to choose from: for a hundred rims the best is seldom within 1e-3 of one
 GOLDEN = (1 + 5**0.5) / 2
@@ -117,7 +118,7 @@ def _unit_area(boundary: Boundary, rims: _Rims) -> Floats:
 
 def _twice_j1(rims: _Rims, toward: Floats) -> Floats:
     """``hΔψ − Δφ`` of each arc, run clockwise, for projections from −``toward``."""
-    along, across = _dot(rims.axis, toward), _dot(rims.middle, toward)
+    along, across = dot(rims.axis, toward), dot(rims.middle, toward)
     turn = np.arctan2(
         (rims.cosine + along) * np.sin(rims.half),
         (1 + rims.cosine * along) * np.cos(rims.half) + rims.sine * across,
@@ -168,7 +169,7 @@ def _unit_flux(rims: _Rims, count: int) -> Floats:
 def _volume(spheres: Spheres, area: Floats, flux: Floats) -> float:
     """``⅓ Σ (r_i A_i + c_i · N_i)``; the N_i add up to nothing, so any origin serves, and the middle best."""
     center = spheres.center - np.sum(spheres.center, axis=0) / max(len(area), 1)
-    return float(np.sum(spheres.radius * area + _dot(center, flux)) / 3)
+    return float(np.sum(spheres.radius * area + dot(center, flux)) / 3)
 
 
 def _area_gradient(spheres: Spheres, rims: _Rims) -> Floats:
@@ -182,7 +183,3 @@ def _area_gradient(spheres: Spheres, rims: _Rims) -> Floats:
 
 def _total(sphere: Ints, vector: Floats, count: int) -> Floats:
     return np.stack([np.bincount(sphere, vector[:, axis], count) for axis in range(3)], axis=1)
-
-
-def _dot(one: Floats, other: Floats) -> Floats:
-    return np.asarray(np.sum(one * other, axis=1))

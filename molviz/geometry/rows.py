@@ -15,6 +15,12 @@ def expand(begin: Ints, end: Ints) -> tuple[Ints, Ints]:
     return owner, np.arange(len(owner)) + (begin - first_row)[owner]
 
 
+def lists_taken(start: Ints, lists: Ints) -> tuple[Ints, Ints]:
+    """Return the rows of the given lists of a CSR table, in that order, and their new offsets."""
+    owner, row = expand(start[lists], start[lists + 1])
+    return row, offsets(owner, len(lists))
+
+
 def blocks(size: Ints, limit: int) -> Iterator[slice]:
     """Cut items of the given sizes into consecutive slices of at most ``limit`` in total (or one item)."""
     total = np.cumsum(size)

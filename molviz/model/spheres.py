@@ -2,7 +2,9 @@
 
 from typing import NamedTuple
 
-from molviz.arrays import Floats
+import numpy as np
+
+from molviz.arrays import Floats, Ints
 from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT, radii
 
@@ -12,6 +14,15 @@ class Spheres(NamedTuple):
 
     center: Floats  # (n, 3) ångström
     radius: Floats  # (n,) ångström
+
+    def take(self, rows: Ints) -> "Spheres":
+        """Return the given spheres, in that order."""
+        return Spheres(self.center[rows], self.radius[rows])
+
+    def box(self) -> tuple[Floats, Floats]:
+        """Return the corners (3,), (3,) of the bounding box of n ≥ 1 balls."""
+        reach = self.radius[:, None]
+        return np.min(self.center - reach, axis=0), np.max(self.center + reach, axis=0)
 
 
 def spheres_of(

@@ -45,7 +45,7 @@ CONTINUOUS = {  # schemes that colour by a number per atom, and what their legen
 
 def atom_colors(scheme: str, molecule: Molecule, values: Floats, style: Style) -> Sequence[Color]:
     """Return the colour of each atom; ``values`` (n,) are the numbers of a continuous scheme."""
-    return on_ramp(values, style) if scheme in CONTINUOUS else SCHEMES[scheme](molecule, style)
+    return on_ramp(values, style.ramp, style.unknown) if scheme in CONTINUOUS else SCHEMES[scheme](molecule, style)
 
 
 def order_of_appearance(names: Strings) -> dict[str, int]:
@@ -53,12 +53,12 @@ def order_of_appearance(names: Strings) -> dict[str, int]:
     return {name: number for number, name in enumerate(dict.fromkeys(names.tolist()))}
 
 
-def on_ramp(values: Floats, style: Style) -> list[Color]:
-    """Return the colours of values between their least and greatest, linear between the stops; NaN is unknown."""
+def on_ramp(values: Floats, ramp: Sequence[Color], unknown: Color) -> list[Color]:
+    """Return the colours of values between their least and greatest, linear between the ramp's; NaN is unknown."""
     known = np.isfinite(values)
     low, high = (values[known].min(), values[known].max()) if known.any() else (0.0, 1.0)
-    place = np.where(known, (values - low) / max(high - low, np.finfo(float).tiny), 0.0) * (len(style.ramp) - 1)
-    stops = np.array(style.ramp, dtype=float)
+    place = np.where(known, (values - low) / max(high - low, np.finfo(float).tiny), 0.0) * (len(ramp) - 1)
+    stops = np.array(ramp, dtype=float)
     channels = [np.interp(place, np.arange(len(stops)), stops[:, channel]) for channel in range(3)]
-    rows = np.where(known[:, None], np.round(np.stack(channels, axis=1)), style.unknown).astype(int)
+    rows = np.where(known[:, None], np.round(np.stack(channels, axis=1)), unknown).astype(int)
     return [(int(r), int(g), int(b)) for r, g, b in rows.tolist()]

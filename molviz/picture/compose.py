@@ -6,7 +6,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths, PlaneArcs
-from molviz.geometry.rows import offsets
+from molviz.geometry.rows import lists_taken, offsets
 from molviz.model.molecule import Molecule
 from molviz.picture.chains import Chains, linked, merged
 from molviz.picture.coloring import CONTINUOUS, atom_colors, order_of_appearance
@@ -113,9 +113,7 @@ def _file_order(molecule: Molecule) -> Ints:
 
 def _chains_of(found: Loops, rows: Ints) -> Chains:
     """The given loops as closed chains."""
-    length = np.diff(found.start)[rows]
-    start = np.append(0, np.cumsum(length))
-    place = np.arange(start[-1]) + np.repeat(found.start[:-1][rows] - start[:-1], length)
+    place, start = lists_taken(found.start, rows)
     return Chains(found.half_edge[place], start, np.ones(len(rows), dtype=bool))
 
 

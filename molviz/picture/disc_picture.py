@@ -8,6 +8,7 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.curves import Paths, PlaneArcs
 from molviz.model.spheres import Spheres
+from molviz.picture.coloring import on_ramp
 from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StrokeLayer
 from molviz.visibility.disc_regions import DiscRegions
 from molviz.visibility.discs import DiscArcs
@@ -55,8 +56,7 @@ def whole_circles(count: int) -> DiscArcs:
 
 def _page(spheres: Spheres, look: DiscLook) -> _Page:
     """The box of all discs is that of what is visible: nothing hides the outermost points but discs that share them."""
-    low = np.min(spheres.center[:, :2] - spheres.radius[:, None], axis=0)
-    high = np.max(spheres.center[:, :2] + spheres.radius[:, None], axis=0)
+    low, high = (corner[:2] for corner in spheres.box())
     scale = look.width / float(high[0] - low[0])
     height = scale * float(high[1] - low[1])
     size = look.width + 2.0 * look.margin, height + 2.0 * look.margin
@@ -74,10 +74,9 @@ def _strokes(spheres: Spheres, page: _Page, arcs: DiscArcs, look: DiscLook) -> S
 def _fills(spheres: Spheres, page: _Page, regions: DiscRegions) -> FillLayer:
     curves = _plane_arcs(spheres, page, regions.circle, regions.start, regions.sweep)
     paths = Paths(curves, regions.loop_start, regions.region_start)
-    colors = _ramp(spheres.center[:, 2])[regions.disc]
-    return FillLayer(
-        "visible regions", paths, [tuple(color) for color in colors.tolist()], _marks("f", regions.disc), SPREAD
-    )
+    shade = on_ramp(spheres.center[:, 2], (NEAR, FAR), FAR)
+    colors = [shade[disc] for disc in regions.disc.tolist()]
+    return FillLayer("visible regions", paths, colors, _marks("f", regions.disc), SPREAD)
 
 
 def _plane_arcs(spheres: Spheres, page: _Page, circle: Ints, start: Floats, sweep: Floats) -> PlaneArcs:
@@ -86,13 +85,6 @@ def _plane_arcs(spheres: Spheres, page: _Page, circle: Ints, start: Floats, swee
     zero = np.zeros(len(circle))
     u, v = np.column_stack([radius, zero]), np.column_stack([zero, radius])
     return PlaneArcs(spheres.center[circle, :2], u, v, start, sweep).moved(page.scale, page.shift)
-
-
-def _ramp(z: Floats) -> Ints:
-    """Colours (n, 3) from the nearest to the farthest disc."""
-    depth = (z - z.min()) / max(float(np.ptp(z)), np.finfo(float).tiny)
-    colors: Ints = np.rint(np.array(NEAR) + depth[:, None] * (np.array(FAR) - np.array(NEAR))).astype(np.int64)
-    return colors
 
 
 def _marks(kind: str, discs: Ints) -> list[Mark]:

@@ -1,17 +1,12 @@
 """What a picture looks like: colours and line widths, from a TOML file."""
 
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from molviz import toml
 from molviz.errors import InputError
 from molviz.picture.picture import Color
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 FOLDER = Path(__file__).parent / "styles"
 STYLES = tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
@@ -47,7 +42,7 @@ def load_style(name: str) -> Style:
     """Return a style by name or from the user's TOML file; raises InputError where it is neither or lacks something."""
     path = FOLDER / f"{name}.toml" if name in STYLES else Path(name)
     try:
-        return _style(tomllib.loads(path.read_text(encoding="utf-8")))
+        return _style(toml.loads(path.read_text(encoding="utf-8")))
     except OSError:
         raise InputError(f"no such style or file; expected one of {', '.join(STYLES)} or a TOML file", name) from None
     except KeyError as missing:

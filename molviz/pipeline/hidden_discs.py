@@ -9,6 +9,7 @@ from typing import TypeAlias
 import numpy as np
 
 from molviz.errors import InputError
+from molviz.geometry.general_position import Degenerate, first_general
 from molviz.model.scenes import random_scene, text_scene
 from molviz.model.spheres import Spheres
 from molviz.picture.disc_picture import DiscLook, disc_picture
@@ -26,12 +27,10 @@ from molviz.visibility.disc_grid import (
     depth_complexity,
     franklin_count,
 )  # fmt: skip
-from molviz.visibility.disc_regions import DiscRegions, GeneralPositionError, displaced, visible_regions
+from molviz.visibility.disc_regions import DiscRegions, displaced, visible_regions
 from molviz.visibility.discs import DiscArcs, Work, visible_arcs
 
 Statistics: TypeAlias = dict[str, int | float | dict[str, int]]
-
-DISPLACEMENTS = 8  # one does for nearly every scene, two for the rest
 
 LABELS = {  # his words, where he has them
     "n": "Circles", "radius": "Max radius", "depth": "Depth complexity", "grid": "Grid resolution",
@@ -124,19 +123,16 @@ def hide_discs(spheres: Spheres, square: Square | None = None, across: int | Non
 def regions_of(scene: HiddenDiscs) -> DiscRegions:
     """Return the visible regions; those of a displaced copy if the scene is not in general position.
 
-    Raises ``GeneralPositionError`` if displacing does not help.
+    Raises InputError if displacing does not help.
     """
-    for attempt in range(DISPLACEMENTS):
-        try:
-            return _regions(scene)
-        except GeneralPositionError:
-            scene = hide_discs(displaced(scene.spheres, seed=attempt), across=scene.grid.across)
-    return _regions(scene)
+    return first_general(lambda attempt: _regions(scene, attempt))
 
 
-def _regions(scene: HiddenDiscs) -> DiscRegions:
+def _regions(scene: HiddenDiscs, attempt: int) -> DiscRegions:
+    if attempt:
+        scene = hide_discs(displaced(scene.spheres, seed=attempt - 1), across=scene.grid.across)
     if scene.work.pairs_touching:
-        raise GeneralPositionError
+        raise Degenerate
     return visible_regions(scene.spheres, scene.grid, scene.lists, scene.arcs)
 
 

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from molviz.arrays import Floats
-from molviz.geometry.grid import Neighbours, intersecting_pairs, neighbours
+from molviz.geometry.components import components
+from molviz.geometry.grid import intersecting_pairs, neighbours
 from molviz.model.spheres import Spheres
 from molviz.pipeline.inputs import Loaded
 
@@ -27,7 +28,7 @@ def info(loaded: Loaded) -> dict[str, Any]:
         "rho": closest_ratio(loaded.spheres),
         "max_neighbours": int(count.max()),
         "mean_neighbours": float(count.mean()),
-        "components": components(near),
+        "components": components(np.repeat(np.arange(len(count)), count), near.item, len(count)),
     }
 
 
@@ -46,22 +47,3 @@ def closest_ratio(spheres: Spheres) -> float | None:
             return ratio
         reach *= 2
     return None
-
-
-def components(near: Neighbours) -> int:
-    """Return the number of connected components of the union of the balls.
-
-    Each sphere takes the least label of its neighbours, and labels are shortened by following them, until nothing
-    changes: few rounds even for long chains.
-    """
-    count = len(near.start) - 1
-    owner = np.repeat(np.arange(count), np.diff(near.start))
-    label = np.arange(count)
-    while True:
-        least = label.copy()
-        np.minimum.at(least, owner, label[near.item])
-        np.minimum.at(least, label, least.copy())
-        least = least[least]
-        if np.array_equal(least, label):
-            return len(np.unique(label))
-        label = least

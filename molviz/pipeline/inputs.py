@@ -12,9 +12,11 @@ from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT
 from molviz.model.selection import is_hydrogen, is_water, select
 from molviz.model.spheres import Spheres, spheres_of
+from molviz.read import FORMATS as READERS
 from molviz.read import Reading, read
 
 FAR_APART = 4000.0  # radii: wider pictures have more pixels than a screen, if each atom is to have two
+FORMATS = tuple(READERS)
 
 
 @dataclass(frozen=True)

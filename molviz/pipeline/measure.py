@@ -12,7 +12,7 @@ from molviz.geometry.measure import Measure, measure_spheres
 from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT
 from molviz.model.selection import select
-from molviz.model.spheres import Spheres, spheres_of
+from molviz.model.spheres import spheres_of
 from molviz.pipeline.inputs import Loaded
 
 PER = ("atom", "residue", "chain")
@@ -61,7 +61,7 @@ def measurement(loaded: Loaded, selection: str | None = None, per: str | None = 
     Raises InputError for a selection that cannot be understood or means no atom.
     """
     chosen = _chosen(loaded, selection)
-    alone = measure_spheres(_take(loaded.spheres, chosen))
+    alone = measure_spheres(loaded.spheres.take(chosen))
     exposed = None if selection is None else measure_spheres(loaded.spheres).area[chosen]
     return Measurement(
         file=loaded.source,
@@ -81,10 +81,6 @@ def _chosen(loaded: Loaded, selection: str | None) -> Ints:
     if len(chosen) == 0:
         raise InputError(f"selection {selection!r} means no atom; expected one at least", loaded.source)
     return chosen
-
-
-def _take(spheres: Spheres, rows: Ints) -> Spheres:
-    return Spheres(spheres.center[rows], spheres.radius[rows])
 
 
 def _parts(molecule: Molecule, per: str, area: Floats, exposed: Floats | None) -> tuple[Part, ...]:

@@ -8,10 +8,11 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT
 from molviz.model.spheres import spheres_of
+from molviz.vectors import cross
 from molviz.visibility.checks import check_map
 from molviz.visibility.half_edges import loop_areas
 from molviz.visibility.map import BACKGROUND, VisibilityMap
-from molviz.visibility.projection import projection_of
+from molviz.visibility.projection import images_of, projection_of
 from molviz.visibility.scene import in_one_view, map_of_scene
 from molviz.visibility.view import View, principal_axes
 
@@ -59,10 +60,8 @@ def visible(molecule: Molecule, view: View | None = None, radii: str = DEFAULT, 
 
 def _disc_areas(found: VisibilityMap, view: View) -> Floats:
     """Area of the image of each sphere: π times the product of its half-axes, ``|u × v|``."""
-    horizon = np.flatnonzero(found.circles.second < 0)
-    angle = np.zeros(len(horizon))
-    image = projection_of(view).page_arcs(found.circles, horizon, angle, angle)
-    return np.asarray(np.pi * np.abs(image.u[:, 0] * image.v[:, 1] - image.u[:, 1] * image.v[:, 0]))
+    image = images_of(found.horizons(), projection_of(view))
+    return np.asarray(np.pi * np.abs(cross(image.u, image.v)))
 
 
 def _depth_jump(found: VisibilityMap, view: View) -> Floats:

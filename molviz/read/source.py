@@ -2,12 +2,10 @@
 
 import gzip
 import zlib
-from collections.abc import Callable
 from pathlib import Path
 
 from molviz.errors import InputError
 
-Note = Callable[[str], None]
 _GZIP, _BYTE_ORDER_MARK = b"\x1f\x8b", b"\xef\xbb\xbf"
 _NOT_TEXT = bytes(set(range(32)) - set(b"\t\n\v\f\r\x1a"))
 

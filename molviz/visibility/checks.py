@@ -5,6 +5,7 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.errors import InputError
+from molviz.geometry.components import components
 from molviz.geometry.intervals import Intervals, above, gaps
 from molviz.geometry.rows import expand
 from molviz.visibility.half_edges import loop_areas, signed_areas
@@ -38,20 +39,7 @@ def euler_defect(found: VisibilityMap) -> int:
     """
     vertices, number = np.unique(np.append(found.origin, found.target), return_inverse=True)
     one, other = number[: len(found.origin)], number[len(found.origin) :]
-    return int(len(vertices) - len(found.start) + len(found.loops.face) - 2 * _components(one, other, len(vertices)))
-
-
-def _components(one: Ints, other: Ints, count: int) -> int:
-    label = np.arange(count)
-    while True:
-        least = label.copy()
-        np.minimum.at(least, one, label[other])
-        np.minimum.at(least, other, label[one])
-        np.minimum.at(least, label, least.copy())
-        least = least[least]
-        if np.array_equal(least, label):
-            return len(np.unique(label))
-        label = least
+    return int(len(vertices) - len(found.start) + len(found.loops.face) - 2 * components(one, other, len(vertices)))
 
 
 def area_difference(found: VisibilityMap, view: View) -> float:
@@ -69,8 +57,7 @@ def area_difference(found: VisibilityMap, view: View) -> float:
 
 def _union_of_discs(found: VisibilityMap) -> float:
     center, radius = found.spheres.center[:, :2], found.spheres.radius
-    horizons = found.circles.take(np.flatnonzero(found.circles.second < 0))
-    near = overlaps(discs_of(horizons, projection_of(View(np.eye(3), np.zeros(3)))))
+    near = overlaps(discs_of(found.horizons(), projection_of(View(np.eye(3), np.zeros(3)))))
     own, entry = expand(near.start[:-1], near.start[1:])
     toward = center[near.item[entry]] - center[own]
     flat = np.sum(toward**2, axis=1) + radius[own] ** 2 - radius[near.item[entry]] ** 2
@@ -106,8 +93,7 @@ def faces_not_seen(found: VisibilityMap, view: View) -> Ints:
 def _nearest_surface(found: VisibilityMap, own: Ints, points: Floats, view: View) -> tuple[Floats, Ints]:
     """The sphere seen at each page point, on or beside the image of sphere ``own``, and by how much it is nearer."""
     projection = projection_of(view)
-    horizons = found.circles.take(np.flatnonzero(found.circles.second < 0))
-    near = overlaps(discs_of(horizons, projection))
+    near = overlaps(discs_of(found.horizons(), projection))
     row, entry = expand(near.start[own], near.start[own + 1])
     row, sphere = np.append(row, np.arange(len(own))), np.append(near.item[entry], own)
     surface = projection.surface(found.spheres, sphere, points[row])

@@ -11,7 +11,7 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
-from molviz.visibility.projection import Projection
+from molviz.visibility.projection import Projection, images_of
 
 MOST_CELLS = 2048  # per axis
 BLOCK_ROWS = 1 << 19  # (sphere, cell) rows at a time
@@ -46,8 +46,7 @@ def possibly_visible(spheres: Spheres, projection: Projection) -> Bools:
 
 def _cells(spheres: Spheres, projection: Projection) -> _Cells:
     """A grid by Franklin's formula for deep scenes, ``L = R (0.6 − 0.078 ln D)`` with depth D."""
-    outline = outlines(spheres, projection)
-    center, half = outline
+    center, half = outlines(spheres, projection)
     low, high = (center - half).min(axis=0), (center + half).max(axis=0)
     radius = float(np.median(half))
     depth = 4 * np.sum(half[:, 0] * half[:, 1]) / max(float(np.prod(high - low)), np.finfo(float).tiny)
@@ -60,10 +59,8 @@ def _cells(spheres: Spheres, projection: Projection) -> _Cells:
 
 def outlines(spheres: Spheres, projection: Projection) -> tuple[Floats, Floats]:
     """Return centre and half-extent (n, 2) of the bounding box of each sphere's image."""
-    count = len(spheres.radius)
-    angle = np.zeros(count)
-    arcs = projection.page_arcs(projection.horizons(spheres), np.arange(count), angle, angle)
-    return arcs.c, arcs.half_extent()
+    images = images_of(projection.horizons(spheres), projection)
+    return images.c, images.half_extent()
 
 
 def _rows(cells: _Cells) -> list[tuple[Ints, Ints, Floats]]:

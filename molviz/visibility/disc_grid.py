@@ -73,9 +73,15 @@ class _Rows(NamedTuple):
 
 def bounding_square(spheres: Spheres) -> Square:
     """Return the smallest square around all discs, from their lower left corner."""
-    low = np.min(spheres.center[:, :2] - spheres.radius[:, None], axis=0)
-    high = np.max(spheres.center[:, :2] + spheres.radius[:, None], axis=0)
-    return Square(float(low[0]), float(low[1]), float(np.max(high - low)))
+    low, high = spheres.box()
+    return Square(float(low[0]), float(low[1]), float(np.max((high - low)[:2])))
+
+
+def on_perimeter(spheres: Spheres, disc: Ints, angle: Floats) -> tuple[Floats, Floats]:
+    """Return x and y of the points of discs' perimeters at the given angles."""
+    x = spheres.center[disc, 0] + spheres.radius[disc] * np.cos(angle)
+    y = spheres.center[disc, 1] + spheres.radius[disc] * np.sin(angle)
+    return x, y
 
 
 def depth_complexity(radius: Floats, square: Square) -> float:

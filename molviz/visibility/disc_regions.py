@@ -16,18 +16,16 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
+from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
 from molviz.geometry.rows import expand, offsets
 from molviz.model.spheres import Spheres
-from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, foremost, nearer
+from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, foremost, nearer, on_perimeter
 from molviz.visibility.discs import DiscArcs
+from molviz.visibility.half_edges import cycles
 
 CLEAR = 1e-11  # radians, or of a radius: far more than rounding, far less than a displacement makes of a coincidence
 DISPLACEMENT = 1e-6  # of the smallest radius: no line is so thin
-
-
-class GeneralPositionError(ArithmeticError):
-    """Perimeters that coincide, touch or meet three at a point: how arcs join is then a matter of rounding."""
 
 
 class DiscRegions(NamedTuple):
@@ -73,12 +71,12 @@ def displaced(spheres: Spheres, seed: int) -> Spheres:
 def visible_regions(spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscArcs) -> DiscRegions:
     """Return the visible regions of discs whose visible arcs are given.
 
-    Regions whose own perimeter is hidden are included (his Fig. 7). Raises ``GeneralPositionError`` where arcs do
+    Regions whose own perimeter is hidden are included (his Fig. 7). Raises ``Degenerate`` where arcs do
     not join, or too closely to be sure; a displaced copy of the discs has the same regions to within the displacement.
     """
     junctions = _junctions(spheres, arcs)
     pieces = _cut(arcs, junctions)
-    edge, loop_start = _cycles(_next_edges(arcs, junctions, pieces))
+    edge, loop_start = cycles(_next_edges(arcs, junctions, pieces))
     disc = _discs_of_loops(spheres, grid, lists, arcs, pieces, edge, loop_start)
     return _assembled(arcs, pieces, edge, loop_start, disc)
 
@@ -90,17 +88,15 @@ def _junctions(spheres: Spheres, arcs: DiscArcs) -> _Junctions:
     at_end = np.arange(len(arc)) >= len(open_arcs)
     over = np.where(at_end, arcs.after[arc], arcs.before[arc])
     angle = arcs.start[arc] + np.where(at_end, arcs.sweep[arc], 0.0)
-    reach = spheres.radius[arcs.circle[arc]]
-    x = spheres.center[arcs.circle[arc], 0] + reach * np.cos(angle) - spheres.center[over, 0]
-    y = spheres.center[arcs.circle[arc], 1] + reach * np.sin(angle) - spheres.center[over, 1]
-    around = np.mod(np.arctan2(y, x), TURN)
+    x, y = on_perimeter(spheres, arcs.circle[arc], angle)
+    around = np.mod(np.arctan2(y - spheres.center[over, 1], x - spheres.center[over, 0]), TURN)
 
     host = _host(arcs, over, around)
     offset = np.mod(around - arcs.start[host], TURN)
     order = np.lexsort((offset, host))
     junctions = _Junctions(host[order], offset[order], arc[order], at_end[order])
     if np.any(arcs.circle[host] != over) or not _apart(arcs, junctions):
-        raise GeneralPositionError
+        raise Degenerate
     return junctions
 
 
@@ -164,22 +160,6 @@ def _next_edges(arcs: DiscArcs, junctions: _Junctions, pieces: _Pieces) -> Ints:
     return following
 
 
-def _cycles(following: Ints) -> tuple[Ints, Ints]:
-    """The cycles of a permutation, one after the other, each from its lowest member; and where each begins."""
-    successor = following.tolist()
-    seen = bytearray(len(successor))
-    order: list[int] = []
-    begins = [0]
-    for member in range(len(successor)):
-        while not seen[member]:
-            seen[member] = 1
-            order.append(member)
-            member = successor[member]  # noqa: PLW2901
-        if len(order) > begins[-1]:
-            begins.append(len(order))
-    return np.array(order, dtype=np.int64), np.array(begins, dtype=np.int64)
-
-
 def _discs_of_loops(
     spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscArcs, pieces: _Pieces, edge: Ints, loop_start: Ints
 ) -> Ints:
@@ -193,7 +173,7 @@ def _discs_of_loops(
     lowest = np.minimum.reduceat(np.where(forward, circle, NOBODY), loop_start[:-1])
     highest = np.maximum.reduceat(np.where(forward, circle, -1), loop_start[:-1])
     if np.any((highest >= 0) & (lowest != highest)):
-        raise GeneralPositionError
+        raise Degenerate
     bare = np.flatnonzero(highest < 0)
     loop = np.repeat(np.arange(len(highest)), np.diff(loop_start))
     by_length = np.lexsort((spheres.radius[circle] * pieces.sweep[edge // 2], loop))
@@ -208,8 +188,7 @@ def _middle(pieces: _Pieces, piece: Ints) -> Floats:
 
 def _next_behind(spheres: Spheres, grid: Grid, lists: CellLists, circle: Ints, angle: Floats) -> Ints:
     """The foremost disc behind a visible point of a perimeter, −1 for none: the cell's blocker or one on its list."""
-    x = spheres.center[circle, 0] + spheres.radius[circle] * np.cos(angle)
-    y = spheres.center[circle, 1] + spheres.radius[circle] * np.sin(angle)
+    x, y = on_perimeter(spheres, circle, angle)
     cell = grid.cell_at(x, y)
     point, place = expand(lists.start[cell], lists.start[cell + 1])
     blocked = np.flatnonzero(lists.blocker[cell] != NOBODY)
@@ -217,7 +196,7 @@ def _next_behind(spheres: Spheres, grid: Grid, lists: CellLists, circle: Ints, a
     disc = np.concatenate([lists.item[place], lists.blocker[cell[blocked]]])
     depth = spheres.radius[disc] - np.hypot(spheres.center[disc, 0] - x[point], spheres.center[disc, 1] - y[point])
     if np.any((np.abs(depth) < CLEAR * spheres.radius[disc]) & (disc != circle[point])):
-        raise GeneralPositionError
+        raise Degenerate
     behind = (depth > 0) & nearer(spheres, circle[point], disc)
     found = foremost(spheres.center[:, 2], disc[behind], point[behind], len(circle))[1]
     return np.where(found == NOBODY, -1, found)

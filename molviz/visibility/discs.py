@@ -13,7 +13,7 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.intervals import Intervals, gaps
 from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
-from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, nearer
+from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, nearer, on_perimeter
 
 BLOCK_ROWS = 1 << 18  # pairs, intervals or tests at a time: keeps memory flat and the columns in cache
 TOUCH = 4.0 * np.finfo(float).eps  # of the lengths compared: perimeters this close to tangent touch and do not cross
@@ -155,9 +155,7 @@ def _midpoint_hidden(spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscA
     hide of it is gone.
     """
     middle = arcs.start + 0.5 * arcs.sweep
-    x = spheres.center[arcs.circle, 0] + spheres.radius[arcs.circle] * np.cos(middle)
-    y = spheres.center[arcs.circle, 1] + spheres.radius[arcs.circle] * np.sin(middle)
-    blocker = lists.blocker[grid.cell_at(x, y)]
+    blocker = lists.blocker[grid.cell_at(*on_perimeter(spheres, arcs.circle, middle))]
     known = np.flatnonzero(blocker != NOBODY)
     hidden = np.zeros(len(blocker), dtype=bool)
     hidden[known] = nearer(spheres, blocker[known], arcs.circle[known])

@@ -9,14 +9,12 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.curves import Paths, PlaneArcs
-from molviz.geometry.rows import offsets
+from molviz.curves import PlaneArcs
+from molviz.geometry.general_position import Degenerate
+from molviz.geometry.rows import lists_taken
+from molviz.vectors import cross
 
 UNUSED = -2  # label of a half-edge that bounds nothing
-
-
-class Degenerate(Exception):  # noqa: N818 - not an error: the caller asks for the next perturbation
-    """The spheres are not in general position: some vertex does not balance."""
 
 
 class Loops(NamedTuple):
@@ -52,6 +50,14 @@ def chained(face: Ints, origin: Ints, target: Ints) -> Ints:
 
 def loops(face: Ints, following: Ints) -> Loops:
     """Return the cycles of ``following``, each from its smallest half-edge, ordered by face."""
+    return _by_face(*cycles(following), face)
+
+
+def cycles(following: Ints) -> tuple[Ints, Ints]:
+    """Return the cycles of a permutation one after the other, each from its lowest member, and CSR offsets.
+
+    Members followed by −1 are left out.
+    """
     successor = following.tolist()
     order: list[int] = []
     start = [0]
@@ -62,16 +68,14 @@ def loops(face: Ints, following: Ints) -> Loops:
             successor[edge], edge = -1, successor[edge]
         if len(order) > start[-1]:
             start.append(len(order))
-    return _by_face(np.array(order, dtype=np.int64), np.array(start), face)
+    return np.array(order, dtype=np.int64), np.array(start, dtype=np.int64)
 
 
 def _by_face(half_edge: Ints, start: Ints, face: Ints) -> Loops:
     label = face[half_edge[start[:-1]]] if len(half_edge) else np.empty(0, dtype=np.int64)
     order = np.argsort(label, kind="stable")
-    length = np.diff(start)[order]
-    begin = np.cumsum(length) - length
-    row = np.arange(len(half_edge)) + np.repeat(start[:-1][order] - begin, length)
-    return Loops(half_edge[row], np.append(begin, len(half_edge)), label[order])
+    row, start = lists_taken(start, order)
+    return Loops(half_edge[row], start, label[order])
 
 
 def oriented(arcs: PlaneArcs, half_edge: Ints) -> PlaneArcs:
@@ -83,11 +87,6 @@ def oriented(arcs: PlaneArcs, half_edge: Ints) -> PlaneArcs:
     )
 
 
-def face_paths(arcs: PlaneArcs, found: Loops, shape: Ints, count: int) -> Paths:
-    """Return the loops as paths; ``shape`` (loops,) ascending says which of ``count`` shapes each belongs to."""
-    return Paths(oriented(arcs, found.half_edge), found.start, offsets(shape, count))
-
-
 def loop_areas(arcs: PlaneArcs, found: Loops) -> Floats:
     """Return the signed area of each loop, ``½ ∮ x dy − y dx``; positive where the interior is inside."""
     area = signed_areas(oriented(arcs, found.half_edge))
@@ -97,8 +96,4 @@ def loop_areas(arcs: PlaneArcs, found: Loops) -> Floats:
 def signed_areas(arcs: PlaneArcs) -> Floats:
     """``½ ∫ x dy − y dx`` over each arc: ``½ (c × (p1 − p0) + (u × v) sweep)``."""
     chord = arcs.at(arcs.start + arcs.sweep) - arcs.at(arcs.start)
-    return np.asarray((_cross(arcs.c, chord) + _cross(arcs.u, arcs.v) * arcs.sweep) / 2)
-
-
-def _cross(x: Floats, y: Floats) -> Floats:
-    return np.asarray(x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0])
+    return np.asarray((cross(arcs.c, chord) + cross(arcs.u, arcs.v) * arcs.sweep) / 2)

@@ -6,10 +6,10 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.geometry.circles import Circles
+from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
 from molviz.geometry.rows import expand
 from molviz.model.spheres import Spheres
-from molviz.visibility.half_edges import Degenerate
 from molviz.visibility.named_arcs import TEE, WHOLE, NamedArcs, vertex_numbers
 from molviz.visibility.projection import Projection
 

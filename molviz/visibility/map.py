@@ -48,6 +48,10 @@ class VisibilityMap(NamedTuple):
         """Return which arcs are creases; the others are horizons."""
         return np.asarray(self.circles.second[self.circle] >= 0)
 
+    def horizons(self) -> Circles:
+        """Return the horizons, in the order of the spheres."""
+        return self.circles.take(np.flatnonzero(self.circles.second < 0))
+
 
 def visibility_map(
     boundary: Boundary, seen: Spheres, wanted: Ints, view: View, projection: Projection
@@ -57,7 +61,7 @@ def visibility_map(
     ``seen`` are the boundary's spheres in eye coordinates; the map numbers spheres by their place in ``wanted``. Raises
     ``Degenerate`` where the spheres are not in general position.
     """
-    spheres = Spheres(seen.center[wanted], seen.radius[wanted])
+    spheres = seen.take(wanted)
     creases, hidden = _creases_between(boundary, wanted, view)
     horizons = projection.horizons(spheres)
     circles = merged(creases, horizons)

@@ -15,6 +15,7 @@ from molviz.arrays import Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.geometry.circles import Circles, circles_about
 from molviz.model.spheres import Spheres
+from molviz.vectors import dot
 from molviz.visibility.view import View
 
 
@@ -84,19 +85,21 @@ def projection_of(view: View) -> Projection:
     return Parallel() if view.distance is None else Central(view.distance)
 
 
+def images_of(circles: Circles, projection: Projection) -> PlaneArcs:
+    """Return the images of whole circles (m,), as ellipses without a part of them named: their sweep is nought."""
+    angle = np.zeros(len(circles.first))
+    return projection.page_arcs(circles, np.arange(len(angle)), angle, angle)
+
+
 def eye_coordinates(spheres: Spheres, view: View) -> Spheres:
     """Return the spheres in the coordinates that ``projection_of(view)`` works in."""
     seen = view.of(spheres)
     return seen if view.distance is None else Spheres(seen.center - [0.0, 0.0, view.distance], seen.radius)
 
 
-def _dot(x: Floats, y: Floats) -> Floats:
-    return np.asarray(np.einsum("ij,ij->i", x, y))
-
-
 def _angle_on(circles: Circles, circle: Ints, points: Floats) -> Floats:
     offset = points - circles.center[circle]
-    return np.arctan2(_dot(offset, circles.b[circle]), _dot(offset, circles.a[circle]))
+    return np.arctan2(dot(offset, circles.b[circle]), dot(offset, circles.a[circle]))
 
 
 class Parallel:
@@ -120,7 +123,7 @@ class Parallel:
         flat = toward[:, 0] ** 2 + toward[:, 1] ** 2
         toward[:, 2] = 0.0
         c = (square - flat - spheres.radius[own] ** 2) / 2
-        return Linear(_dot(horizons.a[own], toward), _dot(horizons.b[own], toward), c)
+        return Linear(dot(horizons.a[own], toward), dot(horizons.b[own], toward), c)
 
     def plane_margin(self, spheres: Spheres, circles: Circles, circle: Ints, sphere: Ints) -> Linear:
         """``z_k − p_z``."""
@@ -132,13 +135,13 @@ class Parallel:
         a, b = circles.a[circle, :2], circles.b[circle, :2]
         m = circles.center[circle, :2] - spheres.center[sphere, :2]
         return Quadratic(
-            _dot(a, a), _dot(a, b), _dot(b, b), _dot(a, m), _dot(b, m), _dot(m, m) - spheres.radius[sphere] ** 2
+            dot(a, a), dot(a, b), dot(b, b), dot(a, m), dot(b, m), dot(m, m) - spheres.radius[sphere] ** 2
         )
 
     def surface(self, spheres: Spheres, sphere: Ints, page: Floats) -> Floats:
         """``z_k + √(rk² − |p⊥ − ck⊥|²)``."""
         offset = page - spheres.center[sphere, :2]
-        return self._height(spheres, sphere, spheres.radius[sphere] ** 2 - _dot(offset, offset))
+        return self._height(spheres, sphere, spheres.radius[sphere] ** 2 - dot(offset, offset))
 
     def surface_bounds(self, spheres: Spheres, sphere: Ints, low: Floats, side: float) -> tuple[Floats, Floats]:
         """The heights above the cell's farthest and nearest point from the centre: a hemisphere falls outwards."""
@@ -178,7 +181,7 @@ class Central(NamedTuple):
     distance: float
 
     def _tangent(self, spheres: Spheres) -> Floats:
-        return np.asarray(np.sqrt(_dot(spheres.center, spheres.center) - spheres.radius**2))
+        return np.asarray(np.sqrt(dot(spheres.center, spheres.center) - spheres.radius**2))
 
     def horizons(self, spheres: Spheres) -> Circles:
         """Circles of radius r L / D about c L² / D²."""
@@ -203,19 +206,19 @@ class Central(NamedTuple):
         tangent = self._tangent(spheres)
         center, toward = spheres.center[own], spheres.center[other] - spheres.center[own]
         square, other_square = spheres.radius[own] ** 2, spheres.radius[other] ** 2
-        shift = toward / 2 + center * (square / _dot(center, center))[:, None]
-        ball = (other_square - square) / 2 - _dot(toward, shift)
-        half = (_dot(toward, center + spheres.center[other]) - (other_square - square)) / 2
+        shift = toward / 2 + center * (square / dot(center, center))[:, None]
+        ball = (other_square - square) / 2 - dot(toward, shift)
+        half = (dot(toward, center + spheres.center[other]) - (other_square - square)) / 2
         step = 2 * half / (tangent[own] + tangent[other])
         constant = ball + np.where(half < 0, step**2 / 2, 0.0)
-        return Linear(_dot(horizons.a[own], toward), _dot(horizons.b[own], toward), constant)
+        return Linear(dot(horizons.a[own], toward), dot(horizons.b[own], toward), constant)
 
     def plane_margin(self, spheres: Spheres, circles: Circles, circle: Ints, sphere: Ints) -> Linear:
         """``p · ck − Lk²``."""
         c = spheres.center[sphere]
-        square = _dot(c, c) - spheres.radius[sphere] ** 2
+        square = dot(c, c) - spheres.radius[sphere] ** 2
         return Linear(
-            _dot(circles.a[circle], c), _dot(circles.b[circle], c), _dot(circles.center[circle], c) - square
+            dot(circles.a[circle], c), dot(circles.b[circle], c), dot(circles.center[circle], c) - square
         )
 
     def cone(self, spheres: Spheres, circles: Circles, circle: Ints, sphere: Ints) -> Quadratic:
@@ -225,7 +228,7 @@ class Central(NamedTuple):
         across = [np.cross(part, c) for part in (parts[0], parts[1], parts[2] - c)]
 
         def form(i: int, j: int) -> Floats:
-            return np.asarray(_dot(across[i], across[j]) - square * _dot(parts[i], parts[j]))
+            return np.asarray(dot(across[i], across[j]) - square * dot(parts[i], parts[j]))
 
         return Quadratic(form(0, 0), form(0, 1), form(1, 1), form(0, 2), form(1, 2), form(2, 2))
 
@@ -234,8 +237,8 @@ class Central(NamedTuple):
         ray = np.column_stack([page, np.full(len(page), -self.distance)])
         ray /= np.linalg.norm(ray, axis=1)[:, None]
         c = spheres.center[sphere]
-        along, beside = _dot(ray, c), np.cross(ray, c)
-        square = spheres.radius[sphere] ** 2 - _dot(beside, beside)
+        along, beside = dot(ray, c), np.cross(ray, c)
+        square = spheres.radius[sphere] ** 2 - dot(beside, beside)
         with np.errstate(invalid="ignore"):
             return np.where(square >= 0, np.sqrt(square) - along, -np.inf)
 

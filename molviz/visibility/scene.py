@@ -8,16 +8,13 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.errors import InputError
 from molviz.geometry.boundary import Boundary, union_boundary
-from molviz.geometry.general_position import general_position
+from molviz.geometry.general_position import first_general, general_position
 from molviz.model.spheres import Spheres
 from molviz.visibility.culling import outlines, possibly_visible
-from molviz.visibility.half_edges import Degenerate
 from molviz.visibility.map import VisibilityMap, visibility_map
 from molviz.visibility.painter import Pieces, painter_pieces
 from molviz.visibility.projection import eye_coordinates, projection_of
 from molviz.visibility.view import View
-
-ATTEMPTS = 8  # perturbations tried; the second is needed about once in ten thousand pictures
 
 T = TypeVar("T")
 
@@ -37,7 +34,7 @@ def prepared(spheres: Spheres, attempt: int = 0, view: View | None = None) -> Sc
     moved, row = general_position(spheres, attempt)
     if view is not None:
         keep = np.flatnonzero(possibly_visible(eye_coordinates(moved, view), projection_of(view)))
-        moved, row = Spheres(moved.center[keep], moved.radius[keep]), row[keep]
+        moved, row = moved.take(keep), row[keep]
     return Scene(union_boundary(moved), row)
 
 
@@ -65,13 +62,7 @@ def in_one_view(spheres: Spheres, view: View, query: Callable[[Scene, View], T])
     Raises InputError if an eye lies inside the molecule, or (never seen) if no perturbation helps.
     """
     _refuse_eye_among(spheres, view)
-    for attempt in range(ATTEMPTS):
-        try:
-            return query(prepared(spheres, attempt, view), view)
-        except Degenerate:
-            continue
-    nearer = "" if view.distance is None else "; expected an eye less far away, or a parallel view"
-    raise InputError(f"the spheres stay in special position after {ATTEMPTS} perturbations{nearer}")
+    return first_general(lambda attempt: query(prepared(spheres, attempt, view), view))
 
 
 def _refuse_eye_among(spheres: Spheres, view: View) -> None:

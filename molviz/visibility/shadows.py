@@ -10,9 +10,10 @@ from molviz.geometry.grid import Neighbours, neighbours
 from molviz.geometry.intervals import TURN, above
 from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
+from molviz.vectors import dot
 from molviz.visibility.conics import Harmonics, harmonics, roots
 from molviz.visibility.named_arcs import BALL, SHADOW, Hidden
-from molviz.visibility.projection import Linear, Projection
+from molviz.visibility.projection import Linear, Projection, images_of
 
 BLOCK_ROWS = 1 << 16  # (curve, sphere) rows at a time, some forty columns each
 
@@ -26,9 +27,7 @@ class Discs(NamedTuple):
 
 def discs_of(circles: Circles, projection: Projection) -> Discs:
     """Return a disc around the image of each circle, as small as its ellipse's major axis allows."""
-    everything = np.arange(len(circles.first))
-    angle = np.zeros(len(everything))
-    image = projection.page_arcs(circles, everything, angle, angle)
+    image = images_of(circles, projection)
     return Discs(image.c, image.major())
 
 
@@ -76,7 +75,7 @@ def shadows_on_creases(
         curve, sphere = curve[rows], sphere[rows]
         apart = image.center[curve] - discs.center[sphere]
         reach = image.radius[curve] + discs.radius[sphere]
-        rows = np.flatnonzero(np.einsum("ij,ij->i", apart, apart) < reach**2)
+        rows = np.flatnonzero(dot(apart, apart) < reach**2)
         found += [
             _shadow(spheres, circles, projection, circle, curve[part], sphere[part])
             for part in np.array_split(rows, len(rows) // BLOCK_ROWS + 1)

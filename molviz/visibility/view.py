@@ -40,8 +40,7 @@ class View:
 
 def middle(spheres: Spheres) -> Floats:
     """Return the middle of the bounding box of the balls (3,)."""
-    low = np.min(spheres.center - spheres.radius[:, None], axis=0)
-    high = np.max(spheres.center + spheres.radius[:, None], axis=0)
+    low, high = spheres.box()
     return np.asarray((low + high) / 2)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths, PlaneArcs
+from molviz.vectors import cross, dot
 
 THIN = 0.005  # points: an ellipse with a smaller half-axis cannot be told from a straight piece on any page
 BEZIER_ERROR = 1e-3  # points: how far a cubic may stray from its arc
@@ -25,17 +26,12 @@ class AxisArcs(NamedTuple):
     sweep: Floats  # (k,) radians in [−2π, 2π]
 
 
-def cross(a: Floats, b: Floats) -> Floats:
-    """Return the signed area (k,) of the parallelograms on the rows of a and b (k, 2)."""
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-
-
 def major_vertex(arcs: PlaneArcs) -> Floats:
     """Return the parameter (k,) of a vertex on the major axis.
 
     ``|u cos t + v sin t|²`` is largest at ``tan 2t = 2 u·v / (u² − v²)`` (Rytz's problem in closed form).
     """
-    uv, uu, vv = (np.einsum("ki,ki->k", *pair) for pair in ((arcs.u, arcs.v), (arcs.u, arcs.u), (arcs.v, arcs.v)))
+    uv, uu, vv = (dot(*pair) for pair in ((arcs.u, arcs.v), (arcs.u, arcs.u), (arcs.v, arcs.v)))
     return np.asarray(0.5 * np.arctan2(2 * uv, uu - vv))
 
 

@@ -4,7 +4,6 @@ A plotter has no fill and no line width: only stroke layers are drawn, each with
 """
 
 import math
-import sys
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -12,16 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from molviz import toml
 from molviz.arrays import Bools, Floats
 from molviz.curves import Paths, PlaneArcs
 from molviz.errors import InputError
 from molviz.picture.picture import Picture, StrokeLayer
+from molviz.vectors import cross
 from molviz.write.pen_travel import drawing_order
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 CHORD_ERROR = 0.5  # plotter units between a curve and its chords: no plotter resolves less
 ROUND = 1e-9  # relative difference of an ellipse's half-diameters that still counts as a circle
@@ -62,7 +58,7 @@ def write_hpgl(picture: Picture, device: Plotter | None = None) -> bytes:
 
 @cache
 def _table() -> dict[str, Any]:
-    return tomllib.loads(resources.files("molviz.write").joinpath("plotters.toml").read_text(encoding="utf-8"))
+    return toml.loads(resources.files("molviz.write").joinpath("plotters.toml").read_text(encoding="utf-8"))
 
 
 def _entry(table: dict[str, Any], key: str, kind: str) -> Any:
@@ -97,7 +93,7 @@ def _commands(arcs: PlaneArcs, direction: float) -> list[str]:
 
     Circles are drawn by ``AA`` about their centre, other ellipses by ``PA`` through chords.
     """
-    turn = np.sign(arcs.u[:, 0] * arcs.v[:, 1] - arcs.u[:, 1] * arcs.v[:, 0])
+    turn = np.sign(cross(arcs.u, arcs.v))
     sweep = np.degrees(arcs.sweep) * turn * direction
     center = np.rint(arcs.c).astype(int).tolist()
     step = _step(arcs.major())

@@ -6,10 +6,10 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats
 from molviz.curves import Paths, PlaneArcs
+from molviz.vectors import cross, dot
 from molviz.write.ellipse import (
     AxisArcs,
     closed_loops,
-    cross,
     in_equal_pieces,
     major_vertex,
     on_axes,
@@ -98,7 +98,7 @@ def flat(arcs: PlaneArcs) -> Bools:
     onward = np.ones(len(length), dtype=bool)
     for t in (arcs.start, stop):
         tangent = (arcs.v * np.cos(t)[:, None] - arcs.u * np.sin(t)[:, None]) * np.sign(arcs.sweep)[:, None]
-        onward &= np.einsum("ki,ki->k", tangent, chord) > 0
+        onward &= dot(tangent, chord) > 0
     return np.asarray((beside < FLAT) & onward & (np.abs(arcs.sweep) < np.pi))
 
 

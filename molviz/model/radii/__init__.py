@@ -1,6 +1,5 @@
 """Radii of atoms: one file per publication beside this module, or the user's own."""
 
-import sys
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,15 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from molviz import toml
 from molviz.arrays import Floats, Strings
 from molviz.errors import InputError
 from molviz.model.elements import symbol_of
 from molviz.model.molecule import Molecule
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 TABLES = {
     "bondi": "van der Waals radii, Bondi 1964 completed by Mantina et al. 2009",
@@ -100,8 +95,8 @@ def _by_atom(molecule: Molecule, atoms: Mapping[tuple[str, str], float]) -> Floa
 
 def _toml(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        return toml.loads(path.read_text(encoding="utf-8"))
+    except (toml.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"no radii table: {error}; expected TOML with [elements]", str(path)) from error
 
 

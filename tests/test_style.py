@@ -1,0 +1,39 @@
+"""Functions stay short, and what others may call says what it does."""
+
+import ast
+import statistics
+from collections.abc import Iterator
+from pathlib import Path
+
+PACKAGE = Path(__file__).parent.parent / "molviz"
+TREES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(PACKAGE.rglob("*.py"))}
+MOST_USUAL, MOST = 12, 40  # lines of a function: the median is below the first, none is above the second
+
+
+def lines(node: ast.FunctionDef) -> int:
+    return (node.end_lineno or node.lineno) - node.lineno + 1
+
+
+def public(body: list[ast.stmt]) -> Iterator[ast.FunctionDef]:
+    """Functions and methods that others may call: not those within functions, nor anything of a private class."""
+    for node in body:
+        if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
+            yield node
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+            yield from public(node.body)
+
+
+def test_functions_are_short() -> None:
+    length = {
+        f"{path.name}:{node.lineno} {node.name}": lines(node)
+        for path, tree in TREES.items()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.FunctionDef)
+    }
+    assert statistics.median(length.values()) < MOST_USUAL
+    assert [name for name, count in length.items() if count > MOST] == []
+
+
+def test_public_functions_say_what_they_do() -> None:
+    found = [(path, node) for path, tree in TREES.items() for node in public(tree.body)]
+    assert [f"{path.name}:{node.lineno} {node.name}" for path, node in found if not ast.get_docstring(node)] == []
