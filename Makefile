@@ -36,7 +36,7 @@ demo: $(VENV)/installed ## make the environment, install, draw the samples into 
 test: $(VENV)/developed ## run all tests
 	$(BIN)/python -m pytest -n auto
 
-check: $(VENV)/developed ## linter, formatter's rules and type checker
+check: $(VENV)/developed ## linter and type checker
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from molviz.model.scenes import random_scene
 from molviz.model.spheres import Spheres
-from molviz.picture.disc_picture import DiscLook, disc_picture, whole_circles
+from molviz.picture.disc_picture import WIDTH, DiscLook, disc_picture, whole_circles
 from molviz.pipeline.hidden_discs import HiddenDiscs, hide_discs, picture_of
 from molviz.visibility.disc_grid import UNIT_SQUARE
 from molviz.write import write
@@ -88,7 +88,7 @@ def shapely_lines(scene: Spheres) -> tuple[float, int]:
     lines = shapely.get_parts(shapely.line_merge(np.array([line for line in visible if not line.is_empty])))
     paths = []
     for line in lines:
-        points = shapely.get_coordinates(line) * DiscLook().width
+        points = shapely.get_coordinates(line) * WIDTH
         paths.append(f'<path d="M{"L".join(f"{x:.2f} {y:.2f}" for x, y in points.tolist())}"/>')
     text = '<svg xmlns="http://www.w3.org/2000/svg">' + "".join(paths) + "</svg>"
     return time.perf_counter() - begin, len(text)

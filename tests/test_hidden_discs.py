@@ -10,6 +10,7 @@ from click.testing import CliRunner, Result
 
 from molviz.cli import main
 from molviz.picture.disc_picture import DiscLook, whole_circles
+from molviz.picture.page import Page
 from molviz.pipeline.hidden_discs import LABELS, hide_discs, picture_of, random_discs
 from tests.disc_scenes import scene_of
 from tests.render import needs_ghostscript, render_ps, render_svg
@@ -85,7 +86,7 @@ def test_regions_are_painted_in_front_of_what_they_hide() -> None:
     from molviz.write import write
 
     scene = random_discs(60, depth=3, radius=None, seed=1, shrink=False, across=None)
-    look = DiscLook(width=300, margin=0, outline=0)
+    look = DiscLook(Page(width=300, margin=0), outline=0)
     picture = picture_of(scene, look, fill=True)
     pixels = render_svg(write(picture, ".svg"), 300)
     order = np.argsort(scene.spheres.center[:, 2])
@@ -109,7 +110,7 @@ def test_postscript_draws_the_visible_arcs() -> None:
     from molviz.write import write
 
     scene = hide_discs(scene_of([(0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 1.0, 1.0)]))
-    picture = picture_of(scene, DiscLook(width=300, margin=10, outline=2))
+    picture = picture_of(scene, DiscLook(Page(width=300, margin=10), outline=2))
     dark = render_ps(write(picture, ".ps"), 72).sum(axis=2) < 384
     arcs = picture.layers[0].paths.arcs
     row = np.repeat(np.arange(2), 400)

@@ -1,7 +1,7 @@
 """``molviz draw``: pictures of molecules."""
 
 import time
-from pathlib import PurePath
+from pathlib import Path, PurePath
 from typing import Any
 
 import click
@@ -108,22 +108,23 @@ def _summary(source: str, target: str, drawing: Drawing, seconds: float) -> str:
 
 
 def suffix_of(output: str | None, to: str | None) -> str:
-    """Return the format asked for: by --to, else by the output's suffix."""
+    """Return the format asked for: by --to, else by the output's suffix; SVG into a folder."""
     known = suffixes()
-    suffix = f".{to.removeprefix('.')}" if to else PurePath(output or "").suffix
+    folder = bool(output) and (str(output).endswith("/") or Path(str(output)).is_dir())
+    usual = ".svg" if folder else PurePath(output or "").suffix
+    suffix = f".{to.removeprefix('.')}" if to else usual
     if suffix.lower() in known:
         return suffix.lower()
     names = " ".join(known)
     if not output and not to:
         raise click.UsageError(f"nowhere to draw to; expected -o FILE with one of the suffixes {names}")
-    raise click.UsageError(f"no format {suffix!r}; expected one of {names} (with --to where the output has none)")
+    raise click.UsageError(f"no format {suffix!r}; expected one of {names} (with --to where standard output has none)")
 
 
 def look_from(options: dict[str, Any]) -> Look:
     """Take the look out of a command's keyword arguments."""
     if options["legend"] and options["color_by"] not in CONTINUOUS:
         raise click.UsageError(f"--legend explains numbers; expected --color-by {' or '.join(CONTINUOUS)}")
-    page = Page(options["page"], options["width"], options["scale"], options["margin"])
     return Look(
         style=load_style(options["style"]),
         color_by=options["color_by"],
@@ -131,9 +132,14 @@ def look_from(options: dict[str, Any]) -> Look:
         outline=options["outline"],
         crease=options["crease"],
         background=options["background"],
-        page=page,
+        page=page_from(options),
         legend=options["legend"],
     )
+
+
+def page_from(options: dict[str, Any]) -> Page:
+    """Take the page out of a command's keyword arguments."""
+    return Page(options["page"], options["width"], options["scale"], options["margin"])
 
 
 def eye_from(options: dict[str, Any]) -> Eye:

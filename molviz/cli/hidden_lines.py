@@ -3,6 +3,7 @@
 import json
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -13,6 +14,7 @@ from molviz.cli.draw import (
     drawing_options,
     eye_from,
     output_options,
+    page_from,
     plotter_options,
     refuse_shared_targets,
     run_drawings,
@@ -20,7 +22,7 @@ from molviz.cli.draw import (
 )
 from molviz.cli.options import POSITIVE, applied, load_and_warn, only_model, part_options, wanted_from
 from molviz.cli.progress import Progress
-from molviz.picture.disc_picture import DiscLook
+from molviz.picture.disc_picture import WIDTH, DiscLook
 from molviz.pipeline.draw import Eye
 from molviz.pipeline.hidden_discs import (
     HiddenDiscs,
@@ -118,7 +120,7 @@ def _discs(target: str | None, scene_of: Callable[[], HiddenDiscs], options: dic
     scene = scene_of()
     if target:
         progress("writing")
-        look = DiscLook(outline=USUAL_LINE if options["outline"] is None else options["outline"])
+        look = _look(options)
         suffix = suffix_of(target, options["to"])
         data = drawn(scene, suffix, look, options["fill"] == "flat", options["plotter"], options["paper"])
         progress.close()
@@ -129,6 +131,15 @@ def _discs(target: str | None, scene_of: Callable[[], HiddenDiscs], options: dic
         click.echo(json.dumps(scene.statistics()))
     elif not target:
         click.echo(statistics_table(scene.statistics()))
+
+
+def _look(options: dict[str, Any]) -> DiscLook:
+    """How discs are drawn: one kind of line, black."""
+    page = page_from(options)
+    if page.size == "fit" and page.width is None and page.scale is None:
+        page = replace(page, width=WIDTH)
+    outline = USUAL_LINE if options["outline"] is None else options["outline"]
+    return DiscLook(page, outline, background=options["background"])
 
 
 def _scene(options: dict[str, Any]) -> HiddenDiscs:

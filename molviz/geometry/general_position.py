@@ -35,7 +35,7 @@ def first_general(query: Callable[[int], T]) -> T:
             return query(attempt)
         except Degenerate:
             continue
-    raise InputError(f"the spheres stay in special position after {ATTEMPTS} perturbations")
+    raise InputError(f"the spheres stay in special position after {ATTEMPTS} perturbations; is an eye too far away?")
 
 
 def general_position(spheres: Spheres, attempt: int = 0) -> tuple[Spheres, Ints]:

@@ -14,14 +14,13 @@ from molviz.picture.legend import WIDTH as LEGEND_WIDTH
 from molviz.picture.legend import legend
 from molviz.picture.marks import marks
 from molviz.picture.page import Page, Placement, place
-from molviz.picture.picture import Color, FillLayer, Layer, Picture, StackedLayer, StrokeLayer
+from molviz.picture.picture import SPREAD, Color, FillLayer, Layer, Picture, StackedLayer, StrokeLayer
 from molviz.picture.style import Style
 from molviz.visibility.half_edges import Loops, loop_areas
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.painter import Pieces
 
 SLIVER = 0.004  # ångström: faces thinner than this are not drawn; displaced copies of one outline lie ten times closer
-SPREAD = 0.24  # points: the stroke in a fill's own colour that closes the hairline to its neighbour
 
 
 @dataclass(frozen=True)

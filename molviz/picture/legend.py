@@ -5,7 +5,7 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.curves import Paths, PlaneArcs
 from molviz.picture.coloring import on_ramp
-from molviz.picture.picture import FillLayer, Layer, Mark, Text, TextLayer
+from molviz.picture.picture import SPREAD, FillLayer, Layer, Mark, Text, TextLayer
 from molviz.picture.style import Style
 
 STEPS = 48  # flat rectangles: exact in every format, and finer than the eye tells apart
@@ -20,7 +20,7 @@ def legend(values: Floats, title: str, style: Style, x: float, low: float, high:
     least, greatest = (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
     steps = np.linspace(0.0, 1.0, STEPS)
     marks = [Mark(f"legend{row}") for row in range(STEPS)]
-    bar = FillLayer("legend", _rectangles(x, low, high), on_ramp(steps, style.ramp, style.unknown), marks, 0.24)
+    bar = FillLayer("legend", _rectangles(x, low, high), on_ramp(steps, style.ramp, style.unknown), marks, SPREAD)
     ticks = [
         Text(x + BAR + 4, low + share * (high - low) - SIZE / 3, f"{least + share * (greatest - least):.4g}", SIZE)
         for share in (0.0, 0.5, 1.0)

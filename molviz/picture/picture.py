@@ -6,6 +6,8 @@ from typing import TypeAlias
 
 from molviz.curves import Paths
 
+SPREAD = 0.24  # points: the usual stroke in a fill's own colour that closes the hairline to its neighbour
+
 Color: TypeAlias = tuple[int, int, int]  # sRGB, 0 to 255 each
 
 
