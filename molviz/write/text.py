@@ -1,6 +1,7 @@
 """Numbers and names as text: short, and harmless whatever a file called its atoms."""
 
 import re
+from functools import cache
 from typing import TypeAlias
 
 import numpy as np
@@ -16,7 +17,9 @@ def number(value: float, places: int = 2) -> str:
     """Return a number rounded to some places, without what may be left out: ``-0.50`` is ``-.5``."""
     text = f"{value:.{places}f}"
     text = text.rstrip("0").rstrip(".") if places else text
-    return re.sub(r"^(-?)0(?=\.)", r"\1", text) if text != "-0" else "0"
+    if text.startswith("0."):
+        return text[1:]
+    return "-" + text[2:] if text.startswith("-0.") else "0" if text == "-0" else text
 
 
 def dictionary(values: Floats, places: int) -> tuple[Texts, Ints]:
@@ -35,7 +38,7 @@ def numbers(values: Floats, places: int = 2) -> Texts:
 
 def clean(text: str) -> str:
     """Return a text in which characters that XML cannot hold became U+FFFD."""
-    return NOT_XML.sub("\ufffd", text)
+    return text if text.isascii() and text.isprintable() else NOT_XML.sub("\ufffd", text)
 
 
 def ascii_line(text: str) -> str:
@@ -49,6 +52,7 @@ def latin_string(text: str) -> str:
     return "".join(chr(code) if 32 <= code < 127 and code not in b"()\\" else f"\\{code:03o}" for code in codes)
 
 
+@cache
 def token(text: str) -> str:
     """Return a text as an XML name that is safe as an id and as a CSS class."""
     word = re.sub("[^A-Za-z0-9_.-]", "_", text)
