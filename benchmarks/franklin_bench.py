@@ -6,6 +6,7 @@
 """
 
 import math
+import os
 import shutil
 import subprocess
 import sys
@@ -29,6 +30,7 @@ PUBLISHED = {  # his Fig. 8
     "cell_entries": 39560, "cells_blocked": 19337, "pairs_tested": 71136, "pairs_intersecting": 32115,
     "visible_whole": 250, "hidden": 6635, "arcs": 4356, "length_circumferences": 1037.48,
 }  # fmt: skip
+VPYPE = shutil.which("vpype", path=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]))
 
 
 def timed(work: Callable[[], object], repeats: int = 1) -> float:
@@ -54,7 +56,7 @@ def peers() -> None:
     print(f"N = {COUNT}, depth 10, scene in memory to SVG in memory")
     print(f"{'molviz':<28}{seconds:9.2f} s {len(result['svg']):12,} bytes")
     compare("shapely, 64-gons, STRtree", *shapely_lines(scene), seconds, len(result["svg"]))
-    if shutil.which("vpype"):
+    if VPYPE:
         compare("vpype occult", *occult_lines(scene, folder), seconds, len(result["svg"]))
     else:
         print("vpype is not installed: pip install vpype vpype-occult")
@@ -100,7 +102,7 @@ def occult_lines(scene: Spheres, folder: Path) -> tuple[float, int]:
     back_to_front = Spheres(scene.center[order], scene.radius[order])
     before, after = folder / "before.svg", folder / "after.svg"
     before.write_bytes(write(disc_picture(back_to_front, whole_circles(len(order)), None, DiscLook()), ".svg"))
-    command = ["vpype", "read", str(before), "occult", "write", str(after)]
+    command = [VPYPE or "vpype", "read", str(before), "occult", "write", str(after)]
     seconds = timed(lambda: subprocess.run(command, check=True))
     return seconds, after.stat().st_size
 
