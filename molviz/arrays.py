@@ -1,11 +1,20 @@
 """Names for the array types that all tables are made of."""
 
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats: TypeAlias = NDArray[np.float64]
-Ints: TypeAlias = NDArray[np.int64]
-Bools: TypeAlias = NDArray[np.bool_]
-Strings: TypeAlias = NDArray[np.str_]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats: TypeAlias = NDArray[np.float64]
+    Ints: TypeAlias = NDArray[np.int64]
+    Bools: TypeAlias = NDArray[np.bool_]
+    Strings: TypeAlias = NDArray[np.str_]
+    Singles: TypeAlias = NDArray[np.float32]
+    Masks: TypeAlias = NDArray[np.uint64]
+    Octets: TypeAlias = NDArray[np.uint8]
+    Fields: TypeAlias = NDArray[np.bytes_]
+    Texts: TypeAlias = NDArray[np.object_]
+else:  # importing numpy.typing takes longer than drawing a small molecule
+    Floats = Ints = Bools = Strings = Singles = Masks = Octets = Fields = Texts = np.ndarray

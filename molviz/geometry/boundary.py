@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.caps import BINS, Caps, Masks, OpenCreases, open_creases
+from molviz.arrays import Bools, Floats, Ints, Masks
+from molviz.geometry.caps import BINS, Caps, OpenCreases, open_creases
 from molviz.geometry.circles import Circles, creases, radical_planes
 from molviz.geometry.grid import Neighbours, neighbours
 from molviz.geometry.intervals import TURN, Intervals, above, gaps

@@ -7,17 +7,13 @@ in double precision by ``boundary``. The neighbours of some spheres are padded i
 stay in cache.
 """
 
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from molviz.arrays import Bools, Floats, Ints
+from molviz.arrays import Bools, Floats, Ints, Masks, Singles
 from molviz.geometry.circles import perpendicular
 from molviz.geometry.tolerances import SINGLE
-
-Singles: TypeAlias = NDArray[np.float32]
-Masks: TypeAlias = NDArray[np.uint64]
 
 BINS = 64  # parts of a circle, one bit each
 BIN_MARGIN = np.float32(0.01)  # of a bin: 1e-3 radians, far above the rounding of angles in single precision

@@ -14,12 +14,12 @@ import gemmi
 import numpy as np
 from gemmi import cif
 
-from molviz.arrays import Floats, Ints, Strings
+from molviz.arrays import Fields, Floats, Ints, Strings
 from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of_atom_name, symbol_of_label
 from molviz.model.molecule import Molecule
 from molviz.read.atoms import AtomTable, coinciding_note, coinciding_rows, models_of
-from molviz.read.numbers import Texts, number_of, numbers
+from molviz.read.numbers import number_of, numbers
 from molviz.read.reading import AssemblyPart, Reading
 from molviz.read.source import note
 
@@ -170,7 +170,7 @@ class Site:
         return self._line_of_row[row] if row < len(self._line_of_row) else None
 
 
-def _without_uncertainty(values: list[str]) -> Texts:
+def _without_uncertainty(values: list[str]) -> Fields:
     octets = [value.encode() for value in values]
     if any(octet.endswith(b")") for octet in octets):
         octets = [_UNCERTAINTY.sub(b"", octet) for octet in octets]

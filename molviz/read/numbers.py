@@ -5,18 +5,16 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from molviz.arrays import Floats
+from molviz.arrays import Fields, Floats
 from molviz.errors import InputError
 
-Texts = NDArray[np.bytes_]
 _NUMBER = re.compile(rb" *[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)? *")
 _LEGAL = np.isin(np.arange(256), np.frombuffer(b"0123456789+-.eE \0", np.uint8))
 _FORTRAN = np.where(np.isin(np.arange(256), (ord("d"), ord("D"))), ord("E"), np.arange(256)).astype(np.uint8)
 
 
-def numbers(texts: Texts, error: Callable[[int, str], InputError]) -> Floats:
+def numbers(texts: Fields, error: Callable[[int, str], InputError]) -> Floats:
     """Return the texts (n,) as finite numbers; decimal, with an exponent after e, E or Fortran's d, D.
 
     ``error(row, text)`` makes the exception for the first text that is no such number: blank, ``abc``, ``15,268``,

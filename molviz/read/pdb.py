@@ -9,17 +9,15 @@ from pathlib import PurePath
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from molviz.arrays import Bools, Floats, Ints, Strings
+from molviz.arrays import Bools, Fields, Floats, Ints, Octets, Strings
 from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_atom_name
 from molviz.read.atoms import AtomTable, models_of
-from molviz.read.numbers import Texts, number_of, numbers
+from molviz.read.numbers import number_of, numbers
 from molviz.read.reading import AssemblyPart, Reading
 from molviz.read.source import note
 
-Octets = NDArray[np.uint8]
 WIDTH = 80
 _COORDINATES = {"x": (31, 38), "y": (39, 46), "z": (47, 54)}
 _HYBRID_36 = re.compile(r"([A-Z][0-9A-Z]{3}|[a-z][0-9a-z]{3})(?![0-9])(.?)$")
@@ -36,7 +34,7 @@ class Lines(NamedTuple):
         """Return the given lines."""
         return Lines(self.octet[rows], self.length[rows], self.number[rows])
 
-    def field(self, first: int, last: int) -> Texts:
+    def field(self, first: int, last: int) -> Fields:
         """Return the columns ``first`` to ``last``, counted from one as the format does, as texts (n,)."""
         return np.ascontiguousarray(self.octet[:, first - 1 : last]).view(f"S{last - first + 1}").ravel()
 
@@ -89,7 +87,7 @@ def _check_columns(atoms: Lines, source: str) -> None:
 # ---- models
 
 
-def _models(record: Texts, lines: Lines, is_atom: Bools, source: str) -> tuple[Ints, list[str]]:
+def _models(record: Fields, lines: Lines, is_atom: Bools, source: str) -> tuple[Ints, list[str]]:
     """Return the model (n,) of every atom, and warnings.
 
     MODEL, ENDMDL and END each part what is before from what is behind, so that a missing number or a missing ENDMDL
@@ -228,13 +226,13 @@ def _guess_note(what: str, rows: Ints, atoms: Lines, source: str) -> str:
 # ---- what stands beside the atoms
 
 
-def _title(record: Texts, lines: Lines, source: str) -> str:
+def _title(record: Fields, lines: Lines, source: str) -> str:
     title = " ".join(text[10:80].strip() for _, text in lines.take(record == b"TITLE ").texts())
     entry = "".join(text[62:66].strip() for _, text in lines.take(record == b"HEADER").texts())
     return title or entry or PurePath(source.removesuffix(".gz")).stem
 
 
-def _connections(record: Texts, lines: Lines, source: str) -> list[str]:
+def _connections(record: Fields, lines: Lines, source: str) -> list[str]:
     """Return a warning where serial numbers of CONECT leave their five columns; bonds are not read from there."""
     for line, text in lines.take(record == b"CONECT").texts():
         serials = text[6:31].rstrip()

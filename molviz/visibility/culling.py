@@ -48,7 +48,7 @@ def _cells(spheres: Spheres, projection: Projection) -> _Cells:
     """A grid by Franklin's formula for deep scenes, ``L = R (0.6 − 0.078 ln D)`` with depth D."""
     center, half = outlines(spheres, projection)
     low, high = (center - half).min(axis=0), (center + half).max(axis=0)
-    radius = float(np.median(half))
+    radius = float(np.partition(half.ravel(), half.size // 2)[half.size // 2])  # np.median loads masked arrays
     depth = 4 * np.sum(half[:, 0] * half[:, 1]) / max(float(np.prod(high - low)), np.finfo(float).tiny)
     factor = float(np.clip(0.6 - 0.078 * np.log(max(depth, 1.0)), 0.2, 0.6))
     side = max(radius * factor, (high - low).max() / MOST_CELLS)

@@ -6,7 +6,7 @@ from io import BytesIO
 import numpy as np
 import pydyf
 
-from molviz.arrays import Bools
+from molviz.arrays import Bools, Texts
 from molviz.curves import Paths
 from molviz.picture.picture import Color, FillLayer, Layer, Picture, StackedLayer, StrokeLayer, TextLayer
 from molviz.write.ellipse import (
@@ -18,7 +18,7 @@ from molviz.write.ellipse import (
     starts_and_ends,
     with_straight_pieces,
 )
-from molviz.write.text import Texts, clean, latin_string, number, numbers
+from molviz.write.text import clean, latin_string, number, numbers
 
 PLACES = 3
 

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats
+from molviz.arrays import Bools, Floats, Texts
 from molviz.curves import Paths, PlaneArcs
 from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StackedLayer, StrokeLayer, TextLayer
 from molviz.write.ellipse import THIN, closed_loops, on_axes, with_straight_pieces
-from molviz.write.text import Texts, ascii_line, latin_string, number, numbers
+from molviz.write.text import ascii_line, latin_string, number, numbers
 
 # a1 a2 major minor rotation cx cy E (F backwards): the arc is built in the unit circle's frame, then that frame is
 # dropped, so that the pen stays round.

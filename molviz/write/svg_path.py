@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats
+from molviz.arrays import Bools, Floats, Texts
 from molviz.curves import Paths, PlaneArcs
 from molviz.vectors import cross, dot
 from molviz.write.ellipse import (
@@ -16,7 +16,7 @@ from molviz.write.ellipse import (
     starts_and_ends,
     with_straight_pieces,
 )
-from molviz.write.text import Texts, dictionary
+from molviz.write.text import dictionary
 
 STRAY = 0.02  # points: how far rounding may move the middle of an arc before the arc is cut in two
 FLAT = 0.01  # points: an arc that leaves its chord by less is the chord, as rounding moves its ends as far

@@ -2,14 +2,11 @@
 
 import re
 from functools import cache
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
-from molviz.arrays import Floats, Ints
+from molviz.arrays import Floats, Ints, Texts
 
-Texts: TypeAlias = NDArray[np.object_]
 NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
