@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from itertools import product
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -28,14 +29,21 @@ def drawn(tmp_path: Path, *words: str, suffix: str = ".json") -> bytes:
     return target.read_bytes()
 
 
-@pytest.mark.parametrize("suffix", [".svg", ".svgz", ".ps", ".eps", ".pdf", ".json"])
-@pytest.mark.parametrize("method", ["visible", "painter"])
-def test_every_format_is_written_twice_the_same(tmp_path: Path, suffix: str, method: str) -> None:
-    if suffix == ".json" and method == "painter":
-        pytest.skip("the map is not made by painting")
+@pytest.mark.parametrize(
+    ("method", "suffix"),
+    [("visible", ".json"), ("visible", ".hpgl"),
+     *product(["visible", "painter"], [".svg", ".svgz", ".ps", ".eps", ".pdf"])],
+)
+def test_every_format_is_written_twice_the_same(tmp_path: Path, method: str, suffix: str) -> None:
     once = drawn(tmp_path, CAFFEINE, "--method", method, suffix=suffix)
     assert once == drawn(tmp_path, CAFFEINE, "--method", method, suffix=suffix)
     assert len(once) > 500
+
+
+@pytest.mark.parametrize("suffix", [".json", ".hpgl"])
+def test_what_cannot_be_painted_is_refused(tmp_path: Path, suffix: str) -> None:
+    result = run("draw", CAFFEINE, "--method", "painter", "-o", str(tmp_path / f"x{suffix}"))
+    assert result.exit_code == 1 and "--method visible" in result.stderr
 
 
 def test_the_summary_is_one_line_on_standard_error(tmp_path: Path) -> None:

@@ -23,6 +23,7 @@ from molviz.visibility.view import View, file_axes, principal_axes
 from molviz.write import WRITERS
 
 JSON = ".json"
+NOT_PAINTED = (JSON, ".hpgl")  # the map is another thing, and a pen cannot cover what it drew
 WATER_RADIUS = 1.4  # ångström, Lee & Richards 1971
 Report = Callable[[str], None]  # told the name of each stage as it begins
 
@@ -63,8 +64,8 @@ def draw(loaded: Loaded, form: Form, look: Look, eye: Eye, method: str, check: b
     low, high = extent(loaded.spheres, view)
     drawn = Drawn(loaded.molecule, np.arange(len(loaded.molecule)), low, high, color_values(loaded, look.color_by))
     if method == "painter":
-        if form.suffix == JSON:
-            raise InputError("the visibility map is written as JSON; use --method visible", loaded.source)
+        if form.suffix in NOT_PAINTED:
+            raise InputError(f"painting over gives no {form.suffix}; expected --method visible", loaded.source)
         return _painted(loaded, form, look, view, drawn, report)
     return _mapped(loaded, form, look, view, drawn, check, report)
 
