@@ -11,9 +11,11 @@ import click
 
 from molviz.cli.batch import for_each
 from molviz.cli.options import input_options, load_and_warn, wanted_from
+from molviz.cli.progress import Progress
 from molviz.model.radii import TABLES
 from molviz.pipeline.inputs import Wanted
 from molviz.pipeline.measure import PER, Measurement, Part, measurement
+from molviz.pipeline.outputs import stem_of
 
 Row = dict[str, Any]
 
@@ -42,13 +44,18 @@ def measure_command(
     wanted = wanted_from(options)
     found: list[Measurement] = []
 
+    progress = Progress(2 * len(inputs))
+
     def one(source: str) -> None:
+        progress(f"reading {stem_of(source)}")
         models = load_and_warn(source, replace(wanted, select=None), quiet, strict)
+        progress(f"measuring {stem_of(source)}")
         found.extend(measurement(loaded, wanted.select, per) for loaded in models)
 
     try:
         for_each(inputs, one)
     finally:
+        progress.close()
         _tell(found, wanted, per, as_json, as_csv)
 
 
