@@ -1,50 +1,29 @@
 """A picture becomes bytes: one writer per format, chosen by suffix."""
 
 from collections.abc import Callable
+from importlib import import_module
 
 from molviz.picture.picture import Picture
 
 
-def _svg(picture: Picture) -> bytes:
-    from molviz.write.svg import write_svg
+def _lazily(module: str, name: str) -> Callable[[Picture], bytes]:
+    """Return a writer that is imported when it is first used: no run needs all the packages behind them."""
 
-    return write_svg(picture)
+    def writer(picture: Picture) -> bytes:
+        found: Callable[[Picture], bytes] = getattr(import_module(f"molviz.write.{module}"), name)
+        return found(picture)
 
-
-def _svgz(picture: Picture) -> bytes:
-    from molviz.write.svg import write_svgz
-
-    return write_svgz(picture)
+    return writer
 
 
-def _ps(picture: Picture) -> bytes:
-    from molviz.write.postscript import write_postscript
-
-    return write_postscript(picture)
-
-
-def _eps(picture: Picture) -> bytes:
-    from molviz.write.postscript import write_eps
-
-    return write_eps(picture)
-
-
-def _pdf(picture: Picture) -> bytes:
-    from molviz.write.pdf import write_pdf
-
-    return write_pdf(picture)
-
-
-def _hpgl(picture: Picture) -> bytes:
-    from molviz.write.hpgl import write_hpgl
-
-    return write_hpgl(picture)
-
-
-# Each writer is imported when it is first used: no run needs all the packages behind them.
 WRITERS: dict[str, Callable[[Picture], bytes]] = {
-    ".svg": _svg, ".svgz": _svgz, ".ps": _ps, ".eps": _eps, ".pdf": _pdf, ".hpgl": _hpgl,
-}  # fmt: skip
+    ".svg": _lazily("svg", "write_svg"),
+    ".svgz": _lazily("svg", "write_svgz"),
+    ".ps": _lazily("postscript", "write_postscript"),
+    ".eps": _lazily("postscript", "write_eps"),
+    ".pdf": _lazily("pdf", "write_pdf"),
+    ".hpgl": _lazily("hpgl", "write_hpgl"),
+}
 
 
 def write(picture: Picture, suffix: str) -> bytes:

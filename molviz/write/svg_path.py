@@ -18,7 +18,7 @@ from molviz.write.ellipse import (
 )
 from molviz.write.text import dictionary
 
-STRAY = 0.02  # points: how far rounding may move the middle of an arc before the arc is cut in two
+STRAY = 0.01  # points: how far rounding may move the middle of an arc before the arc is cut in two
 FLAT = 0.01  # points: an arc that leaves its chord by less is the chord, as rounding moves its ends as far
 CUTS = 10  # halvings: by then every arc that fits on a page lies on its chord
 HALF_TURN = 1e-9  # radians
