@@ -18,7 +18,7 @@ import rust_sasa_python
 
 from molviz.geometry.measure import measure_spheres
 from molviz.model.spheres import Spheres
-from molviz.pipeline.inputs import Wanted, load
+from molviz.pipeline.inputs import InputOptions, load
 
 
 class Run(NamedTuple):
@@ -102,7 +102,7 @@ def main() -> None:
     parser.add_argument("--repeat", type=int, default=3)
     options = parser.parse_args()
     for source in options.inputs:
-        report(source, load(source, Wanted())[0].spheres, options.probe, options.repeat)
+        report(source, load(source, InputOptions())[0].spheres, options.probe, options.repeat)
     if not options.inputs:
         report("globule", globule(4000), options.probe, options.repeat)
 

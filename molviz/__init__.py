@@ -12,17 +12,17 @@ if TYPE_CHECKING:
     from molviz.model.molecule import Molecule
     from molviz.pipeline.measure import measure
     from molviz.pipeline.visible import Visible, visible
-    from molviz.read import Reading, read
+    from molviz.readers import Reading, read
     from molviz.visibility.view import View
 
 _HOMES = {  # imported when first used: start-up time counts
     "InputError": "molviz.errors",
     "Molecule": "molviz.model.molecule",
-    "Reading": "molviz.read",
+    "Reading": "molviz.readers",
     "View": "molviz.visibility.view",
     "Visible": "molviz.pipeline.visible",
     "measure": "molviz.pipeline.measure",
-    "read": "molviz.read",
+    "read": "molviz.readers",
     "visible": "molviz.pipeline.visible",
 }
 __all__ = ["InputError", "Molecule", "Reading", "View", "Visible", "measure", "read", "visible"]

@@ -9,15 +9,15 @@ PACKAGE = Path(__file__).parent.parent / "molviz"
 COMMON = {"arrays", "curves", "errors", "toml", "vectors"}
 STAGES = {  # what each stage may import, besides itself and COMMON
     "model": set(),
-    "read": {"model"},
+    "readers": {"model"},
     "geometry": {"model"},
     "visibility": {"model", "geometry"},
     "picture": {"model", "geometry", "visibility"},
     "write": {"picture"},
-    "pipeline": {"model", "read", "geometry", "visibility", "picture", "write"},
+    "pipeline": {"model", "readers", "geometry", "visibility", "picture", "write"},
     "cli": {"model", "pipeline", "picture"},
 }
-HOMES = {"click": {"cli"}, "gemmi": {"read", "model"}, "svgwrite": {"write"}, "pydyf": {"write"}}
+HOMES = {"click": {"cli"}, "gemmi": {"readers", "model"}, "svgwrite": {"write"}, "pydyf": {"write"}}
 FILES = sorted(path for path in PACKAGE.rglob("*.py") if path.parent != PACKAGE or path.stem in STAGES)
 
 

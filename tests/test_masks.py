@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from molviz.model.spheres import Spheres
-from molviz.picture.compose import Look
+from molviz.picture.compose import DrawOptions
 from molviz.picture.page import Page
 from molviz.picture.style import load_style
-from molviz.pipeline.draw import Eye, Form, draw, view_of
-from molviz.pipeline.inputs import Loaded, Wanted, load
+from molviz.pipeline.draw import OutputFormat, ViewOptions, draw, view_of
+from molviz.pipeline.inputs import InputOptions, Loaded, load
 from tests.render import needs_ghostscript, render_ps, render_svg
 from tests.zbuffer import interior, mask_labels, zbuffer
 
@@ -20,13 +20,13 @@ TURNS = [(), (("x", 40.0), ("y", 65.0), ("z", 10.0))]
 SIZE = 500.0  # points along the longer side; two pixels a point
 
 
-def mask(loaded: Loaded, eye: Eye, suffix: str, method: str) -> tuple[bytes, Spheres, float]:
+def mask(loaded: Loaded, eye: ViewOptions, suffix: str, method: str) -> tuple[bytes, Spheres, float]:
     """A picking mask, the spheres as seen, and points per ångström."""
     seen = view_of(loaded, eye).of(loaded.spheres)
     low, high = bounds(seen)
     scale = SIZE / float((high - low).max())
-    look = Look(load_style("default"), "index", outline=0.0, crease=0.0, page=Page(scale=scale))
-    return draw(loaded, Form(suffix), look, eye, method, False, lambda stage: None).data, seen, scale
+    look = DrawOptions(load_style("default"), "index", outline=0.0, crease=0.0, page=Page(scale=scale))
+    return draw(loaded, OutputFormat(suffix), look, eye, method, False, lambda stage: None).data, seen, scale
 
 
 def bounds(spheres: Spheres) -> tuple[np.ndarray, np.ndarray]:
@@ -45,8 +45,8 @@ def wrong_pixels(label: np.ndarray, seen: Spheres, low: np.ndarray, scale: float
 @pytest.mark.parametrize("turn", TURNS, ids=["file", "turned"])
 @pytest.mark.parametrize("name", ["caffeine.xyz", "c60.xyz", "1a8o.pdb", "nacl.extxyz", "pile.xyzr"])
 def test_svg_mask_equals_zbuffer(name: str, turn: tuple[tuple[str, float], ...], method: str) -> None:
-    loaded = load(str(SAMPLES / name), Wanted())[0]
-    svg, seen, scale = mask(loaded, Eye("file", turn), ".svg", method)
+    loaded = load(str(SAMPLES / name), InputOptions())[0]
+    svg, seen, scale = mask(loaded, ViewOptions("file", turn), ".svg", method)
     page = np.array([float(x) for x in re.findall(rb'viewBox="0 0 (\S+) ([^"]+)"', svg)[0]])
     low, high = bounds(seen)
     label = mask_labels(render_svg(svg, int(2 * page[0])))
@@ -59,7 +59,7 @@ def test_svg_mask_equals_zbuffer(name: str, turn: tuple[tuple[str, float], ...],
 @pytest.mark.parametrize("name", ["caffeine.xyz", "c60.xyz", "1a8o.pdb"])
 def test_eps_mask_equals_zbuffer(name: str, turn: tuple[tuple[str, float], ...], method: str) -> None:
     """The tight bounding box begins where the spheres do."""
-    loaded = load(str(SAMPLES / name), Wanted())[0]
-    eps, seen, scale = mask(loaded, Eye("file", turn), ".eps", method)
+    loaded = load(str(SAMPLES / name), InputOptions())[0]
+    eps, seen, scale = mask(loaded, ViewOptions("file", turn), ".eps", method)
     label = mask_labels(render_ps(eps, 144))
     assert wrong_pixels(label, seen, bounds(seen)[0], scale) == 0

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from molviz.errors import InputError
-from molviz.read import read
+from molviz.readers import read
 from tests.pdb_lines import atom
 
 CIF = "data_x\nloop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\nC 1 2 3\n"
@@ -87,5 +87,5 @@ def test_damage_is_read_or_refused(format: str, place: int, length: int, damage:
 
 
 def test_xyz_is_read_without_the_parser_of_cif() -> None:
-    code = "import sys; from molviz.read import read; read('-', b'1\\n\\nC 0 0 0'); sys.exit('gemmi' in sys.modules)"
+    code = "import sys; from molviz.readers import read; read('-', b'1\\n\\nC 0 0 0'); sys.exit('gemmi' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from molviz.errors import InputError
-from molviz.read import Reading, read
+from molviz.readers import Reading, read
 
 TAGS = (
     "group_PDB id type_symbol label_atom_id label_alt_id label_comp_id label_asym_id auth_asym_id auth_seq_id "

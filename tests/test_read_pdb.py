@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from molviz.errors import InputError
 from molviz.model.molecule import Molecule
-from molviz.read import Reading, read
+from molviz.readers import Reading, read
 from tests.pdb_lines import atom
 
 

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from molviz.errors import InputError
-from molviz.read import Reading, read
+from molviz.readers import Reading, read
 
 
 def xyz(text: str) -> Reading:

@@ -11,18 +11,18 @@ from molviz.cli.options import (
     applied,
     eye_options,
     input_options,
+    input_options_from,
     load_and_warn,
     only_model,
     page_options,
-    wanted_from,
 )
 from molviz.cli.progress import Progress
 from molviz.picture.coloring import CONTINUOUS, SCHEMES
-from molviz.picture.compose import Look
+from molviz.picture.compose import DrawOptions
 from molviz.picture.page import Page
 from molviz.picture.style import STYLES, load_style
-from molviz.pipeline.draw import Drawing, Eye, Form, draw, suffixes
-from molviz.pipeline.inputs import Wanted
+from molviz.pipeline.draw import Drawing, OutputFormat, ViewOptions, draw, suffixes
+from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.outputs import save, target_of
 
 STAGES = 4  # reading, map, picture, writing
@@ -67,8 +67,8 @@ def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
 
 def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     """Draw every input with the options of ``draw``."""
-    wanted, look, eye = wanted_from(options), look_from(options), eye_from(options)
-    form = Form(suffix_of(options["output"], options["to"]), options["plotter"], options["paper"])
+    wanted, look, eye = input_options_from(options), draw_options_from(options), view_options_from(options)
+    form = OutputFormat(suffix_of(options["output"], options["to"]), options["plotter"], options["paper"])
     output = options["output"] or "-"
     refuse_shared_targets(inputs, output, form.suffix)
 
@@ -85,7 +85,13 @@ def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str) -> 
 
 
 def _draw_one(
-    source: str, target: str, form: Form, wanted: Wanted, look: Look, eye: Eye, options: dict[str, Any]
+    source: str,
+    target: str,
+    form: OutputFormat,
+    wanted: InputOptions,
+    look: DrawOptions,
+    eye: ViewOptions,
+    options: dict[str, Any],
 ) -> None:
     began, progress = time.monotonic(), Progress(STAGES)
     progress("reading")
@@ -121,11 +127,11 @@ def suffix_of(output: str | None, to: str | None) -> str:
     raise click.UsageError(f"no format {suffix!r}; expected one of {names} (with --to where standard output has none)")
 
 
-def look_from(options: dict[str, Any]) -> Look:
+def draw_options_from(options: dict[str, Any]) -> DrawOptions:
     """Take the look out of a command's keyword arguments."""
     if options["legend"] and options["color_by"] not in CONTINUOUS:
         raise click.UsageError(f"--legend explains numbers; expected --color-by {' or '.join(CONTINUOUS)}")
-    return Look(
+    return DrawOptions(
         style=load_style(options["style"]),
         color_by=options["color_by"],
         fill=options["fill"],
@@ -142,6 +148,6 @@ def page_from(options: dict[str, Any]) -> Page:
     return Page(options["page"], options["width"], options["scale"], options["margin"])
 
 
-def eye_from(options: dict[str, Any]) -> Eye:
+def view_options_from(options: dict[str, Any]) -> ViewOptions:
     """Take the view out of a command's keyword arguments."""
-    return Eye(options["orient"], options["rotate"], options["perspective"])
+    return ViewOptions(options["orient"], options["rotate"], options["perspective"])

@@ -12,18 +12,18 @@ import click
 from molviz.cli.batch import for_each
 from molviz.cli.draw import (
     drawing_options,
-    eye_from,
     output_options,
     page_from,
     plotter_options,
     refuse_shared_targets,
     run_drawings,
     suffix_of,
+    view_options_from,
 )
-from molviz.cli.options import POSITIVE, applied, load_and_warn, only_model, part_options, wanted_from
+from molviz.cli.options import POSITIVE, applied, input_options_from, load_and_warn, only_model, part_options
 from molviz.cli.progress import Progress
 from molviz.picture.disc_picture import WIDTH, DiscLook
-from molviz.pipeline.draw import Eye
+from molviz.pipeline.draw import ViewOptions
 from molviz.pipeline.hidden_discs import (
     HiddenDiscs,
     drawn,
@@ -32,7 +32,7 @@ from molviz.pipeline.hidden_discs import (
     random_discs,
     statistics_table,
 )
-from molviz.pipeline.inputs import Wanted
+from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.outputs import save, target_of
 
 STAGES = 2  # hidden lines, writing
@@ -101,7 +101,7 @@ def _kind(options: dict[str, Any]) -> str:
 
 
 def _molecules_as_discs(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
-    wanted, eye, output = wanted_from(options), eye_from(options), options["output"]
+    wanted, eye, output = input_options_from(options), view_options_from(options), options["output"]
     suffix = suffix_of(output, options["to"]) if output else ""
     if output:
         refuse_shared_targets(inputs, output, suffix)
@@ -151,7 +151,7 @@ def _scene(options: dict[str, Any]) -> HiddenDiscs:
     return random_discs(options["count"], depth=depth, radius=radius, seed=seed, shrink=shrink, across=across)
 
 
-def _molecule(source: str, wanted: Wanted, eye: Eye, options: dict[str, Any]) -> HiddenDiscs:
+def _molecule(source: str, wanted: InputOptions, eye: ViewOptions, options: dict[str, Any]) -> HiddenDiscs:
     loaded = load_and_warn(source, wanted, options["quiet"], options["strict"])
     return molecule_discs(only_model(loaded), eye, options["grid"])
 

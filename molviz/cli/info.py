@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from molviz.cli.batch import for_each
-from molviz.cli.options import input_options, load_and_warn, wanted_from
+from molviz.cli.options import input_options, input_options_from, load_and_warn
 from molviz.pipeline.info import info
 
 
@@ -24,7 +24,7 @@ def info_command(inputs: tuple[str, ...], as_json: bool, **options: Any) -> None
     Example:
       molviz info 4hhb.pdb --json
     """
-    wanted = wanted_from(options)
+    wanted = input_options_from(options)
     results: list[dict[str, Any]] = []
 
     def one(source: str) -> None:

@@ -10,10 +10,10 @@ from typing import Any
 import click
 
 from molviz.cli.batch import for_each
-from molviz.cli.options import input_options, load_and_warn, wanted_from
+from molviz.cli.options import input_options, input_options_from, load_and_warn
 from molviz.cli.progress import Progress
 from molviz.model.radii import TABLES
-from molviz.pipeline.inputs import Wanted
+from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.measure import PER, Measurement, Part, measurement
 from molviz.pipeline.outputs import stem_of
 
@@ -41,7 +41,7 @@ def measure_command(
     """
     if as_json and as_csv:
         raise click.UsageError("--json and --csv exclude each other")
-    wanted = wanted_from(options)
+    wanted = input_options_from(options)
     found: list[Measurement] = []
 
     progress = Progress(2 * len(inputs))
@@ -59,7 +59,7 @@ def measure_command(
         _tell(found, wanted, per, as_json, as_csv)
 
 
-def _tell(found: list[Measurement], wanted: Wanted, per: str | None, as_json: bool, as_csv: bool) -> None:
+def _tell(found: list[Measurement], wanted: InputOptions, per: str | None, as_json: bool, as_csv: bool) -> None:
     if as_json:
         results = [_totals(one, wanted) | {"per": [_part(part) for part in one.parts]} for one in found]
         click.echo(json.dumps({"results": results}, ensure_ascii=False))
@@ -69,7 +69,7 @@ def _tell(found: list[Measurement], wanted: Wanted, per: str | None, as_json: bo
         click.echo("\n".join(_table(found, wanted)))
 
 
-def _totals(one: Measurement, wanted: Wanted) -> Row:
+def _totals(one: Measurement, wanted: InputOptions) -> Row:
     row = {"file": one.file, "model": one.model, "atoms": one.atoms, "radii": wanted.radii, "probe": wanted.probe}
     return row | {"area": one.area, "volume": one.volume} | _split(one.area, one.exposed)
 
@@ -82,7 +82,7 @@ def _split(area: float, exposed: float | None) -> Row:
     return {} if exposed is None else {"exposed": exposed, "buried": area - exposed}
 
 
-def _rows(found: Iterable[Measurement], wanted: Wanted, per: str | None) -> Iterator[Row]:
+def _rows(found: Iterable[Measurement], wanted: InputOptions, per: str | None) -> Iterator[Row]:
     """One row per model, or per atom, residue or chain of each."""
     for one in found:
         if per is None:
@@ -100,7 +100,7 @@ def _write_csv(rows: Iterable[Row]) -> None:
         writer.writerow(row)
 
 
-def _table(found: list[Measurement], wanted: Wanted) -> Iterator[str]:
+def _table(found: list[Measurement], wanted: InputOptions) -> Iterator[str]:
     title = f" ({TABLES[wanted.radii]})" if wanted.radii in TABLES else ""
     yield f"radii {wanted.radii}{title}, probe {wanted.probe:g} Å; areas in Å², volumes in Å³"
     width = max(len(one.file) for one in found)

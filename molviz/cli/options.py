@@ -12,7 +12,7 @@ from molviz.model.radii import DEFAULT
 from molviz.picture.page import PAPER, parse_length
 from molviz.picture.picture import Color
 from molviz.picture.style import parse_color
-from molviz.pipeline.inputs import FORMATS, Loaded, Wanted, load
+from molviz.pipeline.inputs import FORMATS, InputOptions, Loaded, load
 
 Decorator: TypeAlias = Callable[[Callable[..., Any]], Any]
 SMALLEST, LARGEST = 1e-6, 1e9  # of any number given as an option: what lies outside has no picture in doubles
@@ -116,10 +116,10 @@ page_options = applied(
 )
 
 
-def wanted_from(options: dict[str, Any]) -> Wanted:
+def input_options_from(options: dict[str, Any]) -> InputOptions:
     """Take the input options out of a command's keyword arguments."""
     chain = options.pop("chain")
-    return Wanted(
+    return InputOptions(
         model=options.pop("model"),
         assembly=options.pop("assembly"),
         select=options.pop("select"),
@@ -133,7 +133,7 @@ def wanted_from(options: dict[str, Any]) -> Wanted:
     )
 
 
-def load_and_warn(source: str, wanted: Wanted, quiet: bool, strict: bool) -> list[Loaded]:
+def load_and_warn(source: str, wanted: InputOptions, quiet: bool, strict: bool) -> list[Loaded]:
     """Return the wanted models; warnings go to standard error, or are raised as InputError if strict."""
     data = _standard_input() if source == "-" else None
     loaded = load(source, wanted, data)

@@ -24,7 +24,7 @@ SLIVER = 0.004  # ångström: faces thinner than this are not drawn; displaced c
 
 
 @dataclass(frozen=True)
-class Look:
+class DrawOptions:
     """How the user wants a picture; widths in points, None for the style's."""
 
     style: Style
@@ -38,7 +38,7 @@ class Look:
 
 
 @dataclass(frozen=True)
-class Drawn:
+class Subject:
     """The molecule of a drawing, and how its atoms and its size relate to the geometry."""
 
     molecule: Molecule
@@ -48,21 +48,21 @@ class Drawn:
     values: Floats  # (n,) per atom, what a continuous scheme colours by
 
 
-def picture_of_map(found: VisibilityMap, drawn: Drawn, look: Look) -> Picture:
+def picture_of_map(found: VisibilityMap, subject: Subject, options: DrawOptions) -> Picture:
     """Return the drawing of a visibility map: regions that do not overlap, and on top every visible edge once."""
-    placement, widths = _placement(drawn, look)
+    placement, widths = _placement(subject, options)
     arcs = found.arcs.moved(placement.scale, placement.shift)
     sliver = slivers(found)
     layers: list[Layer] = []
-    if look.fill != "none":
-        layers.append(_regions(found, arcs, sliver, drawn, look))
+    if options.fill != "none":
+        layers.append(_regions(found, arcs, sliver, subject, options))
     roles = edge_roles(found, sliver)
     for name, width in (("crease", widths[1]), ("outline", widths[0]), ("silhouette", widths[0])):
         rows = np.flatnonzero(roles == name)
         if width > 0 and len(rows):
             chains = linked(found.origin, found.target, found.circle, rows)
-            layers.append(StrokeLayer(name, _paths(arcs, found.circle, chains), width, look.style.line_color))
-    return _picture(drawn, look, placement, widths, layers)
+            layers.append(StrokeLayer(name, _paths(arcs, found.circle, chains), width, options.style.line_color))
+    return _picture(subject, options, placement, widths, layers)
 
 
 def edge_roles(found: VisibilityMap, sliver: Bools) -> "np.ndarray[tuple[int], np.dtype[np.str_]]":
@@ -86,16 +86,16 @@ def slivers(found: VisibilityMap) -> Bools:
     return np.asarray(np.abs(loop_areas(found.arcs, found.loops)) < SLIVER * half)
 
 
-def _regions(found: VisibilityMap, arcs: PlaneArcs, sliver: Bools, drawn: Drawn, look: Look) -> FillLayer:
+def _regions(found: VisibilityMap, arcs: PlaneArcs, sliver: Bools, subject: Subject, options: DrawOptions) -> FillLayer:
     """One shape per visible atom, ordered by chain and residue so that these can be groups."""
     keep = np.flatnonzero((found.loops.face != BACKGROUND) & ~sliver)
-    rank = _file_order(drawn.molecule)[drawn.atom]
+    rank = _file_order(subject.molecule)[subject.atom]
     order = keep[np.argsort(rank[found.loops.face[keep]], kind="stable")]
     face = found.loops.face[order]
     shape = np.cumsum(np.append(False, np.diff(face) != 0)[: len(face)])
     paths = _paths(arcs, found.circle, _chains_of(found.loops, order), shape)
     first = np.searchsorted(shape, np.arange(len(paths.shape_start) - 1))
-    return _fills("atoms", paths, drawn, face[first], look, True)
+    return _fills("atoms", paths, subject, face[first], options, True)
 
 
 def _file_order(molecule: Molecule) -> Ints:
@@ -123,38 +123,38 @@ def _paths(arcs: PlaneArcs, circle: Ints, chains: Chains, shape: Ints | None = N
     return Paths(rows, start, offsets(shape, int(shape.max()) + 1 if len(shape) else 0))
 
 
-def _fills(name: str, paths: Paths, drawn: Drawn, sphere: Ints, look: Look, grouped: bool) -> FillLayer:
-    atoms = drawn.atom[sphere]
-    everyone = atom_colors(look.color_by, drawn.molecule, drawn.values, look.style)
+def _fills(name: str, paths: Paths, subject: Subject, sphere: Ints, options: DrawOptions, grouped: bool) -> FillLayer:
+    atoms = subject.atom[sphere]
+    everyone = atom_colors(options.color_by, subject.molecule, subject.values, options.style)
     colors = [everyone[atom] for atom in atoms.tolist()]
-    if look.fill == "none":
-        colors = [look.background or (255, 255, 255)] * len(colors)
-    spread = 0.0 if look.color_by == "index" else SPREAD
-    return FillLayer(name, paths, colors, marks(drawn.molecule.take(atoms), grouped), spread)
+    if options.fill == "none":
+        colors = [options.background or (255, 255, 255)] * len(colors)
+    spread = 0.0 if options.color_by == "index" else SPREAD
+    return FillLayer(name, paths, colors, marks(subject.molecule.take(atoms), grouped), spread)
 
 
-def picture_of_pieces(found: Pieces, drawn: Drawn, look: Look) -> Picture:
+def picture_of_pieces(found: Pieces, subject: Subject, options: DrawOptions) -> Picture:
     """Return the drawing of painter's pieces, back to front, each with the strokes of its own edges."""
-    placement, widths = _placement(drawn, look)
+    placement, widths = _placement(subject, options)
     arcs = found.arcs.moved(placement.scale, placement.shift)
-    rank = np.full(len(drawn.atom), -1)
+    rank = np.full(len(subject.atom), -1)
     rank[found.order] = np.arange(len(found.order))
     order = np.argsort(rank[found.loops.face], kind="stable")
     chains = _chains_of(found.loops, order)
     shape = rank[found.loops.face[order]]
-    fills = _fills("fills", _paths(arcs, found.circle, chains, shape), drawn, found.order, look, False)
+    fills = _fills("fills", _paths(arcs, found.circle, chains, shape), subject, found.order, options, False)
     edge_shape = np.repeat(shape, np.diff(chains.start))
     edge = chains.half_edge >> 1
     strokes = [
-        _strokes_of_pieces(name, found, arcs, edge[wanted[edge]], edge_shape[wanted[edge]], width, look)
+        _strokes_of_pieces(name, found, arcs, edge[wanted[edge]], edge_shape[wanted[edge]], width, options)
         for name, wanted, width in (("crease", found.is_crease, widths[1]), ("outline", ~found.is_crease, widths[0]))
         if width > 0
     ]
-    return _picture(drawn, look, placement, widths, [StackedLayer("atoms", fills, strokes)])
+    return _picture(subject, options, placement, widths, [StackedLayer("atoms", fills, strokes)])
 
 
 def _strokes_of_pieces(
-    name: str, found: Pieces, arcs: PlaneArcs, edge: Ints, shape: Ints, width: float, look: Look
+    name: str, found: Pieces, arcs: PlaneArcs, edge: Ints, shape: Ints, width: float, options: DrawOptions
 ) -> StrokeLayer:
     """The edges of one kind, one shape per piece, each chained within its piece only."""
     vertex = found.origin * len(found.order), found.target * len(found.order)
@@ -166,29 +166,29 @@ def _strokes_of_pieces(
     loops = Loops(chains.half_edge, chains.start, of_chain)
     ordered = _chains_of(loops, order)._replace(closed=chains.closed[order])
     rows, start = merged(arcs, found.circle, ordered)
-    return StrokeLayer(name, Paths(rows, start, offsets(of_chain, len(found.order))), width, look.style.line_color)
+    return StrokeLayer(name, Paths(rows, start, offsets(of_chain, len(found.order))), width, options.style.line_color)
 
 
-def _placement(drawn: Drawn, look: Look) -> tuple[Placement, tuple[float, float]]:
+def _placement(subject: Subject, options: DrawOptions) -> tuple[Placement, tuple[float, float]]:
     """Where the drawing lies, and the widths of outlines and creases in points."""
-    style = look.style
-    widest = max(style.outline.width if look.outline is None else look.outline, look.crease or 0.0)
-    placement = place(look.page, drawn.low, drawn.high, widest / 2, LEGEND_WIDTH if look.legend else 0.0)
-    outline = style.outline.at(placement.scale) if look.outline is None else look.outline
-    crease = style.crease.at(placement.scale) if look.crease is None else look.crease
+    style = options.style
+    widest = max(style.outline.width if options.outline is None else options.outline, options.crease or 0.0)
+    placement = place(options.page, subject.low, subject.high, widest / 2, LEGEND_WIDTH if options.legend else 0.0)
+    outline = style.outline.at(placement.scale) if options.outline is None else options.outline
+    crease = style.crease.at(placement.scale) if options.crease is None else options.crease
     return placement, (outline, crease)
 
 
 def _picture(
-    drawn: Drawn, look: Look, placement: Placement, widths: tuple[float, float], layers: list[Layer]
+    subject: Subject, options: DrawOptions, placement: Placement, widths: tuple[float, float], layers: list[Layer]
 ) -> Picture:
-    half = max(*widths, 0.0 if look.color_by == "index" else SPREAD) / 2
-    low, high = (placement.scale * corner + placement.shift for corner in (drawn.low, drawn.high))
+    half = max(*widths, 0.0 if options.color_by == "index" else SPREAD) / 2
+    low, high = (placement.scale * corner + placement.shift for corner in (subject.low, subject.high))
     right = float(high[0] + half)
-    if look.legend:
+    if options.legend:
         x, middle = right + 16.0, float(low[1] + high[1]) / 2
         reach = min(float(high[1] - low[1]) / 2 - 12.0, 90.0)
-        layers += legend(drawn.values, CONTINUOUS[look.color_by], look.style, x, middle - reach, middle + reach)
+        layers += legend(subject.values, CONTINUOUS[options.color_by], options.style, x, middle - reach, middle + reach)
         right = placement.width - 1.0
     box = (float(low[0] - half), float(low[1] - half), right, float(high[1] + half))
     return Picture(
@@ -196,6 +196,6 @@ def _picture(
         height=placement.height,
         box=box,
         layers=layers,
-        title=drawn.molecule.name,
-        background=look.background,
+        title=subject.molecule.name,
+        background=options.background,
     )

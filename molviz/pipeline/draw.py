@@ -11,7 +11,7 @@ from molviz.arrays import Floats
 from molviz.errors import InputError
 from molviz.geometry.measure import measure_spheres
 from molviz.model.spheres import Spheres
-from molviz.picture.compose import Drawn, Look, picture_of_map, picture_of_pieces, slivers
+from molviz.picture.compose import DrawOptions, Subject, picture_of_map, picture_of_pieces, slivers
 from molviz.picture.picture import Picture
 from molviz.pipeline.inputs import Loaded
 from molviz.pipeline.outputs import encoded
@@ -29,7 +29,7 @@ Report = Callable[[str], None]  # told the name of each stage as it begins
 
 
 @dataclass(frozen=True)
-class Eye:
+class ViewOptions:
     """Where the user looks from."""
 
     orient: str = "principal"
@@ -38,7 +38,7 @@ class Eye:
 
 
 @dataclass(frozen=True)
-class Form:
+class OutputFormat:
     """The format of a drawing by its suffix; plotter and paper for HPGL, the usual ones where empty."""
 
     suffix: str
@@ -55,65 +55,82 @@ class Drawing(NamedTuple):
     arcs: int
 
 
-def draw(loaded: Loaded, form: Form, look: Look, eye: Eye, method: str, check: bool, report: Report) -> Drawing:
+def draw(
+    loaded: Loaded,
+    output: OutputFormat,
+    options: DrawOptions,
+    view_options: ViewOptions,
+    method: str,
+    check: bool,
+    report: Report,
+) -> Drawing:
     """Return one model drawn; ``method`` is ``visible`` or ``painter``.
 
     ``check`` verifies the visibility map and raises InputError where an invariant does not hold.
     """
-    view = view_of(loaded, eye)
+    view = view_of(loaded, view_options)
     low, high = extent(loaded.spheres, view)
-    drawn = Drawn(loaded.molecule, np.arange(len(loaded.molecule)), low, high, color_values(loaded, look.color_by))
+    values = color_values(loaded, options.color_by)
+    subject = Subject(loaded.molecule, np.arange(len(loaded.molecule)), low, high, values)
     if method == "painter":
-        if form.suffix in NOT_PAINTED:
-            raise InputError(f"painting over gives no {form.suffix}; expected --method visible", loaded.source)
-        return _painted(loaded, form, look, view, drawn, report)
-    return _mapped(loaded, form, look, view, drawn, check, report)
+        if output.suffix in NOT_PAINTED:
+            raise InputError(f"painting over gives no {output.suffix}; expected --method visible", loaded.source)
+        return _painted(loaded, output, options, view, subject, report)
+    return _mapped(loaded, output, options, view, subject, check, report)
 
 
 def _mapped(
-    loaded: Loaded, form: Form, look: Look, view: View, drawn: Drawn, check: bool, report: Report
+    loaded: Loaded,
+    output: OutputFormat,
+    options: DrawOptions,
+    view: View,
+    subject: Subject,
+    check: bool,
+    report: Report,
 ) -> Drawing:
     report("visibility map")
     found, atom = in_one_view(loaded.spheres, view, map_of_scene)
     if check:
         check_map(found, view)
     visible = int(np.sum(np.unique(found.loops.face[~slivers(found)]) != BACKGROUND))
-    if form.suffix == JSON:
+    if output.suffix == JSON:
         data = json.dumps(map_as_data(found, loaded.molecule.row[atom], view), separators=(",", ":")).encode() + b"\n"
     else:
         report("picture")
-        data = _written(picture_of_map(found, replace(drawn, atom=atom), look), form, report)
+        data = _written(picture_of_map(found, replace(subject, atom=atom), options), output, report)
     return Drawing(data, loaded.read, visible, len(found.start))
 
 
-def _painted(loaded: Loaded, form: Form, look: Look, view: View, drawn: Drawn, report: Report) -> Drawing:
+def _painted(
+    loaded: Loaded, output: OutputFormat, options: DrawOptions, view: View, subject: Subject, report: Report
+) -> Drawing:
     report("painter's pieces")
     found, atom = in_one_view(loaded.spheres, view, pieces_of_scene)
     report("picture")
-    picture = picture_of_pieces(found, replace(drawn, atom=atom), look)
-    return Drawing(_written(picture, form, report), loaded.read, len(found.order), len(found.circle))
+    picture = picture_of_pieces(found, replace(subject, atom=atom), options)
+    return Drawing(_written(picture, output, report), loaded.read, len(found.order), len(found.circle))
 
 
-def _written(picture: Picture, form: Form, report: Report) -> bytes:
+def _written(picture: Picture, output: OutputFormat, report: Report) -> bytes:
     report("writing")
-    return encoded(picture, form.suffix, form.plotter, form.paper)
+    return encoded(picture, output.suffix, output.plotter, output.paper)
 
 
 def color_values(loaded: Loaded, scheme: str) -> Floats:
     """Return what a continuous colour scheme shows of each atom (n,), NaN for other schemes.
 
-    Exposure is the exact solvent-accessible area of the atom in Å² (water, radius 1.4 Å, among the atoms drawn).
+    Exposure is the exact solvent-accessible area of the atom in Å² (water, radius 1.4 Å, among the atoms subject).
     """
     if scheme == "exposure":
         return measure_spheres(Spheres(loaded.spheres.center, loaded.spheres.radius + WATER_RADIUS)).area
     return loaded.molecule.bfactor if scheme == "bfactor" else np.full(len(loaded.molecule), np.nan)
 
 
-def view_of(loaded: Loaded, eye: Eye) -> View:
+def view_of(loaded: Loaded, view_options: ViewOptions) -> View:
     """Return the view that the user's options mean for one model."""
-    axes = principal_axes if eye.orient == "principal" else file_axes
-    view = axes(loaded.spheres, eye.distance)
-    for axis, degrees in eye.rotations:
+    axes = principal_axes if view_options.orient == "principal" else file_axes
+    view = axes(loaded.spheres, view_options.distance)
+    for axis, degrees in view_options.rotations:
         view = view.rotated(axis, degrees)
     return view
 

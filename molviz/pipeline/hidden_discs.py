@@ -14,7 +14,7 @@ from molviz.model.scenes import random_scene, text_scene
 from molviz.model.spheres import Spheres
 from molviz.picture.disc_picture import DiscLook, disc_picture
 from molviz.picture.picture import Picture
-from molviz.pipeline.draw import Eye, view_of
+from molviz.pipeline.draw import ViewOptions, view_of
 from molviz.pipeline.inputs import Loaded
 from molviz.pipeline.outputs import encoded
 from molviz.visibility.disc_grid import (
@@ -93,14 +93,14 @@ def lettered_discs(text: str, *, shrink: bool, across: int | None) -> HiddenDisc
     return hide_discs(text_scene(text, shrink=shrink), across=across)
 
 
-def molecule_discs(loaded: Loaded, eye: Eye, across: int | None) -> HiddenDiscs:
+def molecule_discs(loaded: Loaded, view_options: ViewOptions, across: int | None) -> HiddenDiscs:
     """Return a molecule's atoms as opaque discs, ordered by their centres alone, without their hidden lines.
 
     Raises InputError for a central view, whose outlines are no circles.
     """
-    if eye.distance is not None:
+    if view_options.distance is not None:
         raise InputError("discs are drawn in parallel projection; expected no --perspective", loaded.source)
-    seen = view_of(loaded, eye).of(loaded.spheres)
+    seen = view_of(loaded, view_options).of(loaded.spheres)
     return hide_discs(Spheres(seen.center * [1.0, 1.0, -1.0], seen.radius), across=across)
 
 

@@ -12,15 +12,15 @@ from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT
 from molviz.model.selection import is_hydrogen, is_water, select
 from molviz.model.spheres import Spheres, spheres_of
-from molviz.read import FORMATS as READERS
-from molviz.read import Reading, read
+from molviz.readers import FORMATS as READERS
+from molviz.readers import Reading, read
 
 FAR_APART = 4000.0  # radii: wider pictures have more pixels than a screen, if each atom is to have two
 FORMATS = tuple(READERS)
 
 
 @dataclass(frozen=True)
-class Wanted:
+class InputOptions:
     """Which part of a file is wanted, and how large its atoms are."""
 
     model: str = "1"  # number from 1, or "all"
@@ -48,7 +48,7 @@ class Loaded(NamedTuple):
     warnings: tuple[str, ...]
 
 
-def load(source: str, wanted: Wanted, data: bytes | None = None) -> list[Loaded]:
+def load(source: str, wanted: InputOptions, data: bytes | None = None) -> list[Loaded]:
     """Return the wanted models of a file (``data``: its content where it was read already).
 
     Raises InputError for what cannot be read, for a model or assembly that is not there, and where nothing is left.
@@ -66,7 +66,7 @@ def _model_numbers(reading: Reading, model: str) -> list[int]:
     raise InputError(f"no model or frame {model!r}; the file has {count}, numbered from 1", reading.source)
 
 
-def _loaded(reading: Reading, number: int, wanted: Wanted) -> Loaded:
+def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
     whole = reading.models[number - 1]
     if wanted.assembly is not None:
         whole = reading.assembly(wanted.assembly, number - 1)
@@ -80,7 +80,7 @@ def _loaded(reading: Reading, number: int, wanted: Wanted) -> Loaded:
     )
 
 
-def _kept(molecule: Molecule, wanted: Wanted, source: str) -> Molecule:
+def _kept(molecule: Molecule, wanted: InputOptions, source: str) -> Molecule:
     keep: Bools = np.ones(len(molecule), dtype=bool)
     if wanted.select is not None:
         keep &= select(molecule, wanted.select)

@@ -8,7 +8,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints, Strings
 from molviz.model.molecule import Molecule
-from molviz.read.source import note
+from molviz.readers.source import note
 
 
 class AtomTable(NamedTuple):

@@ -13,10 +13,10 @@ import numpy as np
 from molviz.arrays import Bools, Fields, Floats, Ints, Octets, Strings
 from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_atom_name
-from molviz.read.atoms import AtomTable, models_of
-from molviz.read.numbers import number_of, numbers
-from molviz.read.reading import AssemblyPart, Reading
-from molviz.read.source import note
+from molviz.readers.atoms import AtomTable, models_of
+from molviz.readers.numbers import number_of, numbers
+from molviz.readers.reading import AssemblyPart, Reading
+from molviz.readers.source import note
 
 WIDTH = 80
 _COORDINATES = {"x": (31, 38), "y": (39, 46), "z": (47, 54)}

@@ -7,9 +7,9 @@ import numpy as np
 from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN
 from molviz.model.molecule import Molecule
-from molviz.read.atoms import coinciding_note, coinciding_rows
-from molviz.read.numbers import numbers
-from molviz.read.reading import Reading
+from molviz.readers.atoms import coinciding_note, coinciding_rows
+from molviz.readers.numbers import numbers
+from molviz.readers.reading import Reading
 
 
 def read_xyzr(data: bytes, source: str) -> Reading:

@@ -10,10 +10,10 @@ from molviz.arrays import Floats, Strings
 from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_label
 from molviz.model.molecule import Molecule
-from molviz.read.atoms import coinciding_note, coinciding_rows
-from molviz.read.numbers import is_number, numbers
-from molviz.read.reading import Reading
-from molviz.read.source import note
+from molviz.readers.atoms import coinciding_note, coinciding_rows
+from molviz.readers.numbers import is_number, numbers
+from molviz.readers.reading import Reading
+from molviz.readers.source import note
 
 _PROPERTIES = re.compile(rb"(?:^|\s)properties=(?:\"([^\"]*)\"|(\S+))", re.IGNORECASE)
 _COUNT = re.compile(rb"\s*[+-]?\d{1,18}\s*")

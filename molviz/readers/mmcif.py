@@ -18,10 +18,10 @@ from molviz.arrays import Fields, Floats, Ints, Strings
 from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of_atom_name, symbol_of_label
 from molviz.model.molecule import Molecule
-from molviz.read.atoms import AtomTable, coinciding_note, coinciding_rows, models_of
-from molviz.read.numbers import number_of, numbers
-from molviz.read.reading import AssemblyPart, Reading
-from molviz.read.source import note
+from molviz.readers.atoms import AtomTable, coinciding_note, coinciding_rows, models_of
+from molviz.readers.numbers import number_of, numbers
+from molviz.readers.reading import AssemblyPart, Reading
+from molviz.readers.source import note
 
 _AXES = ("x", "y", "z")
 _CARTESIAN = tuple(f"_atom_site.Cartn_{axis}" for axis in _AXES)

@@ -5,18 +5,18 @@ from collections.abc import Callable
 from pathlib import PurePath
 
 from molviz.errors import InputError
-from molviz.read.pdb import read_pdb
-from molviz.read.reading import Reading
-from molviz.read.source import note, text_of
-from molviz.read.xyz import read_xyz
-from molviz.read.xyzr import read_xyzr
+from molviz.readers.pdb import read_pdb
+from molviz.readers.reading import Reading
+from molviz.readers.source import note, text_of
+from molviz.readers.xyz import read_xyz
+from molviz.readers.xyzr import read_xyzr
 
 __all__ = ["FORMATS", "READERS", "Reading", "read"]
 
 
 def _read_mmcif(data: bytes, source: str) -> Reading:
     """Import the parser only when an mmCIF file comes: it takes longer to load than a small file to read."""
-    from molviz.read.mmcif import read_mmcif
+    from molviz.readers.mmcif import read_mmcif
 
     return read_mmcif(data, source)
 
