@@ -17,11 +17,11 @@ from pathlib import Path
 
 import numpy as np
 
+from molviz.discs.grid import UNIT_SQUARE
 from molviz.model.scenes import random_scene
 from molviz.model.spheres import Spheres
 from molviz.picture.disc_picture import WIDTH, DiscLook, disc_picture, whole_circles
 from molviz.pipeline.hidden_discs import HiddenDiscs, hide_discs, picture_of
-from molviz.visibility.disc_grid import UNIT_SQUARE
 from molviz.write import write
 
 COUNT = 10000

@@ -10,10 +10,10 @@ import time
 
 import numpy as np
 
+from molviz.discs.grid import UNIT_SQUARE, depth_complexity
 from molviz.model.scenes import random_scene
 from molviz.model.spheres import Spheres
 from molviz.pipeline.hidden_discs import hide_discs
-from molviz.visibility.disc_grid import UNIT_SQUARE, depth_complexity
 
 TABLE_1 = [  # N, R, best L, T, Tn
     (300, 0.01, 0.0625, 2.6, 2.6), (300, 0.03, 0.167, 5.5, 5.5), (300, 0.05, 0.25, 11.6, 11.6),

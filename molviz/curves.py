@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints
-from molviz.vectors import dot
+from molviz.arrays import Bools, Floats, Ints
+from molviz.vectors import cross, dot
 
 
 class PlaneArcs(NamedTuple):
@@ -28,6 +28,40 @@ class PlaneArcs(NamedTuple):
     def at(self, t: Floats) -> Floats:
         """Return the points (k, 2) at one parameter per arc."""
         return self.c + self.u * np.cos(t)[:, None] + self.v * np.sin(t)[:, None]
+
+    def tangent(self, t: Floats) -> Floats:
+        """Return the derivatives (k, 2) at one parameter per arc, in the direction of growing t."""
+        return self.v * np.cos(t)[:, None] - self.u * np.sin(t)[:, None]
+
+    def stop(self) -> Floats:
+        """Return the parameters (k,) at which the arcs end."""
+        return self.start + self.sweep
+
+    def middle(self) -> Floats:
+        """Return the parameters (k,) halfway along the arcs."""
+        return self.start + self.sweep / 2
+
+    def starts(self) -> Floats:
+        """Return the points (k, 2) at which the arcs start."""
+        return self.at(self.start)
+
+    def ends(self) -> Floats:
+        """Return the points (k, 2) at which the arcs end."""
+        return self.at(self.stop())
+
+    def reversed(self, back: Bools) -> "PlaneArcs":
+        """Return the arcs, those that are to run ``back`` (k,) from their ends to their starts."""
+        start = np.where(back, self.stop(), self.start)
+        return self._replace(start=start, sweep=np.where(back, -self.sweep, self.sweep))
+
+    def split(self, owner: Ints, start: Floats, sweep: Floats) -> "PlaneArcs":
+        """Return pieces (m,) of the arcs: piece j is part of arc ``owner[j]``."""
+        return self.take(owner)._replace(start=start, sweep=sweep)
+
+    def signed_area(self) -> Floats:
+        """Return ``½ ∫ x dy − y dx`` over each arc (k,): ``½ (c × (p1 − p0) + (u × v) sweep)``."""
+        chord = self.ends() - self.starts()
+        return np.asarray((cross(self.c, chord) + cross(self.u, self.v) * self.sweep) / 2)
 
     def half_extent(self) -> Floats:
         """Return the half-widths (k, 2) of the bounding boxes of the whole ellipses about their centres."""

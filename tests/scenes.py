@@ -5,20 +5,20 @@ import numpy as np
 from molviz.geometry.boundary import union_boundary
 from molviz.geometry.general_position import general_position
 from molviz.model.spheres import Spheres
-from molviz.visibility.map import VisibilityMap, visibility_map
+from molviz.visibility.eye import eye_coordinates, occluders_of, projection_of
+from molviz.visibility.map import VisibilityMap, map_in_view
 from molviz.visibility.painter import Pieces, painter_pieces
-from molviz.visibility.projection import eye_coordinates, projection_of
 from molviz.visibility.view import View
 
 
 def map_of(spheres: Spheres, view: View) -> VisibilityMap:
     """The map of all spheres, which are taken to be in general position."""
-    seen = eye_coordinates(spheres, view)
-    return visibility_map(union_boundary(spheres), seen, np.arange(len(spheres.radius)), view, projection_of(view))
+    seen = occluders_of(eye_coordinates(spheres, view), view)
+    return map_in_view(union_boundary(spheres), seen, np.arange(len(spheres.radius)), view, projection_of(view))
 
 
 def pieces_of(spheres: Spheres, view: View) -> Pieces:
-    seen = eye_coordinates(spheres, view)
+    seen = occluders_of(eye_coordinates(spheres, view), view)
     return painter_pieces(union_boundary(spheres), seen, np.arange(len(spheres.radius)), view, projection_of(view))
 
 

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from molviz.geometry.intervals import TURN
 from molviz.visibility.conics import harmonics, roots
-from molviz.visibility.projection import Quadratic
+from molviz.visibility.forms import Quadratic
 
 number = st.floats(-3, 3, allow_subnormal=False)
 

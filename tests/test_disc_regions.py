@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from molviz.discs.regions import DiscRegions, visible_regions
 from molviz.model.scenes import random_scene, text_scene
 from molviz.model.spheres import Spheres
 from molviz.pipeline.hidden_discs import hide_discs, regions_of
-from molviz.visibility.disc_regions import DiscRegions, visible_regions
 from tests.disc_oracle import TURN, top_disc
 from tests.disc_scenes import discs_of, random_discs, scene_of
 

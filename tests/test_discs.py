@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from molviz.discs.arcs import DiscArcs, visible_arcs
+from molviz.discs.grid import UNIT_SQUARE, Grid, bounding_square, cell_lists, franklin_count
 from molviz.model.scenes import random_scene, text_scene
 from molviz.model.spheres import Spheres
-from molviz.visibility.disc_grid import UNIT_SQUARE, Grid, bounding_square, cell_lists, franklin_count
-from molviz.visibility.discs import DiscArcs, visible_arcs
 from tests import disc_oracle
 from tests.disc_scenes import discs_of, random_discs, scene_of
 

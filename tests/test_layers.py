@@ -12,9 +12,10 @@ STAGES = {  # what each stage may import, besides itself and COMMON
     "readers": {"model"},
     "geometry": {"model"},
     "visibility": {"model", "geometry"},
-    "picture": {"model", "geometry", "visibility"},
+    "discs": {"model", "geometry"},
+    "picture": {"model", "geometry", "visibility", "discs"},
     "write": {"picture"},
-    "pipeline": {"model", "readers", "geometry", "visibility", "picture", "write"},
+    "pipeline": {"model", "readers", "geometry", "visibility", "discs", "picture", "write"},
     "cli": {"model", "pipeline", "picture"},
 }
 HOMES = {"click": {"cli"}, "gemmi": {"readers", "model"}, "svgwrite": {"write"}, "pydyf": {"write"}}

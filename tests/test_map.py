@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from molviz.curves import PlaneArcs
-from molviz.visibility.half_edges import Loops, loop_areas, oriented
+from molviz.geometry.planar_map import Loops, loop_areas, oriented
 from molviz.visibility.map import VisibilityMap
 from molviz.visibility.painter import Pieces
 from molviz.visibility.view import file_axes
@@ -51,17 +51,18 @@ def safe_points(seed: int, arcs: PlaneArcs, half: float) -> np.ndarray:
 
 def euler_defect(found: VisibilityMap) -> int:
     """V − E + L − 2 C, with L boundary loops and C components: nought for a planar map (Euler's formula)."""
-    parent = {int(vertex): int(vertex) for vertex in np.append(found.origin, found.target)}
+    origin, target = found.curve_arcs.origin, found.curve_arcs.target
+    parent = {int(vertex): int(vertex) for vertex in np.append(origin, target)}
 
     def root(vertex: int) -> int:
         while parent[vertex] != vertex:
             vertex = parent[vertex]
         return vertex
 
-    for one, other in zip(found.origin.tolist(), found.target.tolist(), strict=True):
+    for one, other in zip(origin.tolist(), target.tolist(), strict=True):
         parent[root(one)] = root(other)
     components = len({root(vertex) for vertex in parent})
-    return len(parent) - len(found.start) + len(found.loops.face) - 2 * components
+    return len(parent) - len(origin) + len(found.loops.face) - 2 * components
 
 
 @given(st.integers(0, 10**6), st.integers(1, 45), st.floats(0.1, 7), st.floats(1, 5))

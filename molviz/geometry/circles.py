@@ -9,10 +9,7 @@ from molviz.model.spheres import Spheres
 
 
 class Circles(NamedTuple):
-    """m circles on spheres; ``a × b`` points from the centre of ``first`` towards that of ``second``.
-
-    ``second`` is −1 for a horizon, where a × b points towards the eye.
-    """
+    """m circles on spheres; ``a × b`` points from the centre of ``first`` towards that of ``second``."""
 
     first: Ints  # (m,)
     second: Ints  # (m,)

@@ -6,6 +6,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths, PlaneArcs
+from molviz.geometry.planar_map import Loops
 from molviz.geometry.rows import lists_taken, offsets
 from molviz.model.molecule import Molecule
 from molviz.picture.chains import Chains, linked, merged
@@ -16,11 +17,9 @@ from molviz.picture.marks import marks
 from molviz.picture.page import Page, Placement, place
 from molviz.picture.picture import SPREAD, Color, FillLayer, Layer, Picture, StackedLayer, StrokeLayer
 from molviz.picture.style import Style
-from molviz.visibility.half_edges import Loops, loop_areas
+from molviz.visibility.lines import CREASE, OUTLINE, ROLES, SILHOUETTE, line_roles, slivers
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.painter import Pieces
-
-SLIVER = 0.004  # ångström: faces thinner than this are not drawn; displaced copies of one outline lie ten times closer
 
 
 @dataclass(frozen=True)
@@ -48,52 +47,34 @@ class Subject:
     values: Floats  # (n,) per atom, what a continuous scheme colours by
 
 
-def picture_of_map(found: VisibilityMap, subject: Subject, options: DrawOptions) -> Picture:
+def picture_of_map(view_map: VisibilityMap, subject: Subject, options: DrawOptions) -> Picture:
     """Return the drawing of a visibility map: regions that do not overlap, and on top every visible edge once."""
     placement, widths = _placement(subject, options)
-    arcs = found.arcs.moved(placement.scale, placement.shift)
-    sliver = slivers(found)
+    arcs, on_curves = view_map.arcs.moved(placement.scale, placement.shift), view_map.curve_arcs
+    sliver = slivers(view_map)
     layers: list[Layer] = []
     if options.fill != "none":
-        layers.append(_regions(found, arcs, sliver, subject, options))
-    roles = edge_roles(found, sliver)
-    for name, width in (("crease", widths[1]), ("outline", widths[0]), ("silhouette", widths[0])):
-        rows = np.flatnonzero(roles == name)
+        layers.append(_regions(view_map, arcs, sliver, subject, options))
+    roles = line_roles(view_map, sliver)
+    for role, width in ((CREASE, widths[1]), (OUTLINE, widths[0]), (SILHOUETTE, widths[0])):
+        rows = np.flatnonzero(roles == role)
         if width > 0 and len(rows):
-            chains = linked(found.origin, found.target, found.circle, rows)
-            layers.append(StrokeLayer(name, _paths(arcs, found.circle, chains), width, options.style.line_color))
+            chains = linked(on_curves.origin, on_curves.target, on_curves.curve, rows)
+            paths = _paths(arcs, on_curves.curve, chains)
+            layers.append(StrokeLayer(ROLES[role], paths, width, options.style.line_color))
     return _picture(subject, options, placement, widths, layers)
 
 
-def edge_roles(found: VisibilityMap, sliver: Bools) -> "np.ndarray[tuple[int], np.dtype[np.str_]]":
-    """Return what each arc is: ``crease``, ``outline`` (before another sphere), ``silhouette`` (before the background).
-
-    Horizons of slivers have no role: the edge they nearly coincide with is drawn instead.
-    """
-    horizon = np.where(found.right == BACKGROUND, "silhouette", "outline")
-    roles = np.where(found.is_crease(), "crease", horizon)
-    loop_of = np.empty(2 * len(found.start), dtype=np.int64)
-    loop_of[found.loops.half_edge] = np.repeat(np.arange(len(found.loops.face)), np.diff(found.loops.start))
-    return np.where(~found.is_crease() & sliver[loop_of[::2]], "", roles)
-
-
-def slivers(found: VisibilityMap) -> Bools:
-    """Return which loops enclose less than ``SLIVER`` times their half length."""
-    row = found.loops.half_edge >> 1
-    chord = found.arcs.take(row)
-    length = np.abs(chord.sweep) * np.sqrt((chord.u**2 + chord.v**2).sum(axis=1) / 2)
-    half = np.add.reduceat(length, found.loops.start[:-1]) / 2 if len(row) else np.empty(0)
-    return np.asarray(np.abs(loop_areas(found.arcs, found.loops)) < SLIVER * half)
-
-
-def _regions(found: VisibilityMap, arcs: PlaneArcs, sliver: Bools, subject: Subject, options: DrawOptions) -> FillLayer:
+def _regions(
+    view_map: VisibilityMap, arcs: PlaneArcs, sliver: Bools, subject: Subject, options: DrawOptions
+) -> FillLayer:
     """One shape per visible atom, ordered by chain and residue so that these can be groups."""
-    keep = np.flatnonzero((found.loops.face != BACKGROUND) & ~sliver)
+    keep = np.flatnonzero((view_map.loops.face != BACKGROUND) & ~sliver)
     rank = _file_order(subject.molecule)[subject.atom]
-    order = keep[np.argsort(rank[found.loops.face[keep]], kind="stable")]
-    face = found.loops.face[order]
+    order = keep[np.argsort(rank[view_map.loops.face[keep]], kind="stable")]
+    face = view_map.loops.face[order]
     shape = np.cumsum(np.append(False, np.diff(face) != 0)[: len(face)])
-    paths = _paths(arcs, found.circle, _chains_of(found.loops, order), shape)
+    paths = _paths(arcs, view_map.curve_arcs.curve, _chains_of(view_map.loops, order), shape)
     first = np.searchsorted(shape, np.arange(len(paths.shape_start) - 1))
     return _fills("atoms", paths, subject, face[first], options, True)
 
@@ -110,10 +91,10 @@ def _file_order(molecule: Molecule) -> Ints:
     return rank
 
 
-def _chains_of(found: Loops, rows: Ints) -> Chains:
+def _chains_of(loops: Loops, rows: Ints) -> Chains:
     """The given loops as closed chains."""
-    place, start = lists_taken(found.start, rows)
-    return Chains(found.half_edge[place], start, np.ones(len(rows), dtype=bool))
+    place, start = lists_taken(loops.start, rows)
+    return Chains(loops.half_edge[place], start, np.ones(len(rows), dtype=bool))
 
 
 def _paths(arcs: PlaneArcs, circle: Ints, chains: Chains, shape: Ints | None = None) -> Paths:
@@ -133,40 +114,40 @@ def _fills(name: str, paths: Paths, subject: Subject, sphere: Ints, options: Dra
     return FillLayer(name, paths, colors, marks(subject.molecule.take(atoms), grouped), spread)
 
 
-def picture_of_pieces(found: Pieces, subject: Subject, options: DrawOptions) -> Picture:
+def picture_of_pieces(pieces: Pieces, subject: Subject, options: DrawOptions) -> Picture:
     """Return the drawing of painter's pieces, back to front, each with the strokes of its own edges."""
     placement, widths = _placement(subject, options)
-    arcs = found.arcs.moved(placement.scale, placement.shift)
+    arcs, is_crease = pieces.arcs.moved(placement.scale, placement.shift), pieces.is_crease()
     rank = np.full(len(subject.atom), -1)
-    rank[found.order] = np.arange(len(found.order))
-    order = np.argsort(rank[found.loops.face], kind="stable")
-    chains = _chains_of(found.loops, order)
-    shape = rank[found.loops.face[order]]
-    fills = _fills("fills", _paths(arcs, found.circle, chains, shape), subject, found.order, options, False)
+    rank[pieces.order] = np.arange(len(pieces.order))
+    order = np.argsort(rank[pieces.loops.face], kind="stable")
+    chains = _chains_of(pieces.loops, order)
+    shape = rank[pieces.loops.face[order]]
+    fills = _fills("fills", _paths(arcs, pieces.curve_arcs.curve, chains, shape), subject, pieces.order, options, False)
     edge_shape = np.repeat(shape, np.diff(chains.start))
     edge = chains.half_edge >> 1
     strokes = [
-        _strokes_of_pieces(name, found, arcs, edge[wanted[edge]], edge_shape[wanted[edge]], width, options)
-        for name, wanted, width in (("crease", found.is_crease, widths[1]), ("outline", ~found.is_crease, widths[0]))
+        _strokes_of_pieces(name, pieces, arcs, edge[wanted[edge]], edge_shape[wanted[edge]], width, options)
+        for name, wanted, width in (("crease", is_crease, widths[1]), ("outline", ~is_crease, widths[0]))
         if width > 0
     ]
     return _picture(subject, options, placement, widths, [StackedLayer("atoms", fills, strokes)])
 
 
 def _strokes_of_pieces(
-    name: str, found: Pieces, arcs: PlaneArcs, edge: Ints, shape: Ints, width: float, options: DrawOptions
+    name: str, pieces: Pieces, arcs: PlaneArcs, edge: Ints, shape: Ints, width: float, options: DrawOptions
 ) -> StrokeLayer:
     """The edges of one kind, one shape per piece, each chained within its piece only."""
-    vertex = found.origin * len(found.order), found.target * len(found.order)
-    owner = np.zeros(len(found.origin), dtype=np.int64)
+    vertex = pieces.curve_arcs.origin * len(pieces.order), pieces.curve_arcs.target * len(pieces.order)
+    owner = np.zeros(len(pieces.curve_arcs.origin), dtype=np.int64)
     owner[edge] = shape
-    chains = linked(vertex[0] + owner, vertex[1] + owner, found.circle, edge)
+    chains = linked(vertex[0] + owner, vertex[1] + owner, pieces.curve_arcs.curve, edge)
     of_chain = owner[chains.half_edge[chains.start[:-1]] >> 1]
     order = np.argsort(of_chain, kind="stable")
     loops = Loops(chains.half_edge, chains.start, of_chain)
     ordered = _chains_of(loops, order)._replace(closed=chains.closed[order])
-    rows, start = merged(arcs, found.circle, ordered)
-    return StrokeLayer(name, Paths(rows, start, offsets(of_chain, len(found.order))), width, options.style.line_color)
+    rows, start = merged(arcs, pieces.curve_arcs.curve, ordered)
+    return StrokeLayer(name, Paths(rows, start, offsets(of_chain, len(pieces.order))), width, options.style.line_color)
 
 
 def _placement(subject: Subject, options: DrawOptions) -> tuple[Placement, tuple[float, float]]:

@@ -6,12 +6,12 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.curves import Paths, PlaneArcs
+from molviz.discs.arcs import DiscArcs
+from molviz.discs.regions import DiscRegions
 from molviz.model.spheres import Spheres
 from molviz.picture.coloring import on_ramp
 from molviz.picture.page import Page, Placement, place
 from molviz.picture.picture import SPREAD, Color, FillLayer, Layer, Mark, Picture, StrokeLayer
-from molviz.visibility.disc_regions import DiscRegions
-from molviz.visibility.discs import DiscArcs
 
 NEAR, FAR = (0xFD, 0xF6, 0xE3), (0x58, 0x6E, 0x75)  # the ends of the colour ramp from the front to the back
 WIDTH = 432.0  # points, of a scene whose size nobody asked for

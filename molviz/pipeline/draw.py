@@ -11,14 +11,15 @@ from molviz.arrays import Floats
 from molviz.errors import InputError
 from molviz.geometry.measure import measure_spheres
 from molviz.model.spheres import Spheres
-from molviz.picture.compose import DrawOptions, Subject, picture_of_map, picture_of_pieces, slivers
+from molviz.picture.compose import DrawOptions, Subject, picture_of_map, picture_of_pieces
 from molviz.picture.picture import Picture
 from molviz.pipeline.inputs import Loaded
 from molviz.pipeline.outputs import encoded
 from molviz.visibility.checks import check_map
+from molviz.visibility.lines import slivers
 from molviz.visibility.map import BACKGROUND
 from molviz.visibility.map_json import map_as_data
-from molviz.visibility.scene import extent, in_one_view, map_of_scene, pieces_of_scene
+from molviz.visibility.scene import Scene, extent
 from molviz.visibility.view import View, file_axes, principal_axes
 from molviz.write import WRITERS
 
@@ -89,26 +90,27 @@ def _mapped(
     report: Report,
 ) -> Drawing:
     report("visibility map")
-    found, atom = in_one_view(loaded.spheres, view, map_of_scene)
+    view_map, atom = Scene(loaded.spheres, only=view).map(view)
     if check:
-        check_map(found, view)
-    visible = int(np.sum(np.unique(found.loops.face[~slivers(found)]) != BACKGROUND))
+        check_map(view_map, view)
+    visible = int(np.sum(np.unique(view_map.loops.face[~slivers(view_map)]) != BACKGROUND))
     if output.suffix == JSON:
-        data = json.dumps(map_as_data(found, loaded.molecule.row[atom], view), separators=(",", ":")).encode() + b"\n"
+        plain = map_as_data(view_map, loaded.molecule.row[atom], view)
+        data = json.dumps(plain, separators=(",", ":")).encode() + b"\n"
     else:
         report("picture")
-        data = _written(picture_of_map(found, replace(subject, atom=atom), options), output, report)
-    return Drawing(data, loaded.read, visible, len(found.start))
+        data = _written(picture_of_map(view_map, replace(subject, atom=atom), options), output, report)
+    return Drawing(data, loaded.read, visible, len(view_map.curve_arcs.curve))
 
 
 def _painted(
     loaded: Loaded, output: OutputFormat, options: DrawOptions, view: View, subject: Subject, report: Report
 ) -> Drawing:
     report("painter's pieces")
-    found, atom = in_one_view(loaded.spheres, view, pieces_of_scene)
+    pieces, atom = Scene(loaded.spheres, only=view).pieces(view)
     report("picture")
-    picture = picture_of_pieces(found, replace(subject, atom=atom), options)
-    return Drawing(_written(picture, output, report), loaded.read, len(found.order), len(found.circle))
+    picture = picture_of_pieces(pieces, replace(subject, atom=atom), options)
+    return Drawing(_written(picture, output, report), loaded.read, len(pieces.order), len(pieces.curve_arcs.curve))
 
 
 def _written(picture: Picture, output: OutputFormat, report: Report) -> bytes:

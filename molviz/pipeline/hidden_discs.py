@@ -8,16 +8,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from molviz.errors import InputError
-from molviz.geometry.general_position import Degenerate, first_general
-from molviz.model.scenes import random_scene, text_scene
-from molviz.model.spheres import Spheres
-from molviz.picture.disc_picture import DiscLook, disc_picture
-from molviz.picture.picture import Picture
-from molviz.pipeline.draw import ViewOptions, view_of
-from molviz.pipeline.inputs import Loaded
-from molviz.pipeline.outputs import encoded
-from molviz.visibility.disc_grid import (
+from molviz.discs.arcs import DiscArcs, Work, visible_arcs
+from molviz.discs.grid import (
     UNIT_SQUARE,
     CellLists,
     Grid,
@@ -27,8 +19,16 @@ from molviz.visibility.disc_grid import (
     depth_complexity,
     franklin_count,
 )  # fmt: skip
-from molviz.visibility.disc_regions import DiscRegions, displaced, visible_regions
-from molviz.visibility.discs import DiscArcs, Work, visible_arcs
+from molviz.discs.regions import DiscRegions, displaced, visible_regions
+from molviz.errors import InputError
+from molviz.geometry.general_position import Degenerate, first_general
+from molviz.model.scenes import random_scene, text_scene
+from molviz.model.spheres import Spheres
+from molviz.picture.disc_picture import DiscLook, disc_picture
+from molviz.picture.picture import Picture
+from molviz.pipeline.draw import ViewOptions, view_of
+from molviz.pipeline.inputs import Loaded
+from molviz.pipeline.outputs import encoded
 
 Statistics: TypeAlias = dict[str, int | float | dict[str, int]]
 

@@ -5,15 +5,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
+from molviz.geometry.planar_map import loop_areas
 from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT
 from molviz.model.spheres import spheres_of
 from molviz.vectors import cross
 from molviz.visibility.checks import check_map
-from molviz.visibility.half_edges import loop_areas
+from molviz.visibility.eye import projection_of
+from molviz.visibility.lines import depth_jump, is_silhouette
 from molviz.visibility.map import BACKGROUND, VisibilityMap
-from molviz.visibility.projection import images_of, projection_of
-from molviz.visibility.scene import in_one_view, map_of_scene
+from molviz.visibility.projection import images_of
+from molviz.visibility.scene import Scene
 from molviz.visibility.view import View, principal_axes
 
 
@@ -35,7 +37,7 @@ class Visible:
     @property
     def silhouette(self) -> Bools:
         """Which arcs (arcs,) lie between an atom and the background."""
-        return np.asarray((self.left == BACKGROUND) | (self.right == BACKGROUND))
+        return is_silhouette(self.map)
 
     def check(self) -> None:
         """Raise InputError if Euler's formula, the areas or the faces seen beside arcs do not hold."""
@@ -49,26 +51,17 @@ def visible(molecule: Molecule, view: View | None = None, radii: str = DEFAULT, 
     """
     spheres, _ = spheres_of(molecule, radii, probe=probe)
     view = view or principal_axes(spheres)
-    found, atom = in_one_view(spheres, view, map_of_scene)
+    view_map, atom = Scene(spheres, only=view).map(view)
     area, disc = np.zeros(len(molecule)), np.full(len(molecule), np.inf)
-    inside = found.loops.face != BACKGROUND
-    np.add.at(area, atom[found.loops.face[inside]], loop_areas(found.arcs, found.loops)[inside])
-    disc[atom] = _disc_areas(found, view)
+    inside = view_map.loops.face != BACKGROUND
+    np.add.at(area, atom[view_map.loops.face[inside]], loop_areas(view_map.arcs, view_map.loops)[inside])
+    disc[atom] = _disc_areas(view_map, view)
     named = np.append(atom, BACKGROUND)
-    return Visible(found, view, area, area / disc, named[found.left], named[found.right], _depth_jump(found, view))
+    left, right = named[view_map.left], named[view_map.right]
+    return Visible(view_map, view, area, area / disc, left, right, depth_jump(view_map, view))
 
 
-def _disc_areas(found: VisibilityMap, view: View) -> Floats:
+def _disc_areas(view_map: VisibilityMap, view: View) -> Floats:
     """Area of the image of each sphere: π times the product of its half-axes, ``|u × v|``."""
-    image = images_of(found.horizons(), projection_of(view))
+    image = images_of(view_map.horizons(), projection_of(view))
     return np.asarray(np.pi * np.abs(cross(image.u, image.v)))
-
-
-def _depth_jump(found: VisibilityMap, view: View) -> Floats:
-    """How much farther than the horizon the surface behind it lies, at the middle of each arc."""
-    projection = projection_of(view)
-    points = found.circles.at(found.circle, found.start + found.sweep / 2)
-    behind = projection.surface(found.spheres, np.maximum(found.right, 0), projection.page_points(points))
-    own = points[:, 2] if view.distance is None else -np.linalg.norm(points, axis=1)
-    jump = np.where(found.right == BACKGROUND, np.inf, own - behind)
-    return np.where(found.is_crease(), 0.0, jump)

@@ -5,13 +5,13 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.errors import InputError
-from molviz.geometry.components import components
 from molviz.geometry.intervals import Intervals, above, gaps
+from molviz.geometry.planar_map import euler_defect, loop_areas
 from molviz.geometry.rows import expand
-from molviz.visibility.half_edges import loop_areas, signed_areas
+from molviz.visibility.eye import occluders_of, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
-from molviz.visibility.projection import projection_of
-from molviz.visibility.shadows import discs_of, overlaps
+from molviz.visibility.occlusion import discs_of, overlaps
+from molviz.visibility.projection import Projection
 from molviz.visibility.view import View
 
 AREA_TOLERANCE = 1e-9  # of the drawing's area, by which two ways of computing it may differ
@@ -20,83 +20,72 @@ LEAST_STEP = 1e-10  # of the largest sphere: shorter steps drown in rounding
 CLEAR = 1e-3  # of the step, by which one surface must be nearer than the others to be called the nearest
 
 
-def check_map(found: VisibilityMap, view: View) -> None:
+def check_map(view_map: VisibilityMap, view: View) -> None:
     """Raise InputError if the map breaks an invariant; that every vertex balances was seen to when it was made."""
-    if euler_defect(found):
+    if euler_defect(view_map.edges, view_map.loops):
         raise InputError("the visibility map breaks Euler's formula")
-    difference = area_difference(found, view)
+    difference = area_difference(view_map, projection_of(view))
     if difference > AREA_TOLERANCE:
         raise InputError(f"the faces' areas differ from the area of the union of discs by {difference:.1e} of it")
-    wrong = faces_not_seen(found, view)
+    wrong = arcs_beside_wrong_faces(view_map, view)
     if len(wrong):
         raise InputError(f"{len(wrong)} faces of the visibility map are not what is seen beside their arcs")
 
 
-def euler_defect(found: VisibilityMap) -> int:
-    """Return V − E + L − 2 C for V vertices, E arcs, L boundary loops and C components, nought for a planar map.
-
-    Euler's V − E + F = 1 + C in other words: a face with h holes has 1 + h loops.
-    """
-    vertices, number = np.unique(np.append(found.origin, found.target), return_inverse=True)
-    one, other = number[: len(found.origin)], number[len(found.origin) :]
-    return int(len(vertices) - len(found.start) + len(found.loops.face) - 2 * components(one, other, len(vertices)))
-
-
-def area_difference(found: VisibilityMap, view: View) -> float:
+def area_difference(view_map: VisibilityMap, projection: Projection) -> float:
     """Return by how much, relatively, the faces' total area misses that of the union of the discs (parallel views).
 
     The second comes from the discs' own free arcs alone; a central view, whose outlines are ellipses, compares the
     faces with the outer loops instead.
     """
-    areas = loop_areas(found.arcs, found.loops)
-    inside = float(areas[found.loops.face != BACKGROUND].sum())
-    outer = -float(areas[found.loops.face == BACKGROUND].sum())
-    whole = _union_of_discs(found) if view.distance is None else outer
+    areas = loop_areas(view_map.arcs, view_map.loops)
+    inside = float(areas[view_map.loops.face != BACKGROUND].sum())
+    outer = -float(areas[view_map.loops.face == BACKGROUND].sum())
+    whole = _union_of_discs(view_map, projection) if projection.keeps_circles else outer
     return abs(inside - whole) / max(whole, np.finfo(float).tiny)
 
 
-def _union_of_discs(found: VisibilityMap) -> float:
-    center, radius = found.spheres.center[:, :2], found.spheres.radius
-    near = overlaps(discs_of(found.horizons(), projection_of(View(np.eye(3), np.zeros(3)))))
+def _union_of_discs(view_map: VisibilityMap, projection: Projection) -> float:
+    discs = discs_of(view_map.horizons(), projection)
+    near = overlaps(discs)
     own, entry = expand(near.start[:-1], near.start[1:])
-    toward = center[near.item[entry]] - center[own]
-    flat = np.sum(toward**2, axis=1) + radius[own] ** 2 - radius[near.item[entry]] ** 2
-    middle, half = above(toward[:, 0], toward[:, 1], flat / (2 * radius[own]))
+    toward = discs.center[near.item[entry]] - discs.center[own]
+    flat = np.sum(toward**2, axis=1) + discs.radius[own] ** 2 - discs.radius[near.item[entry]] ** 2
+    middle, half = above(toward[:, 0], toward[:, 1], flat / (2 * discs.radius[own]))
     rows = half > 0
-    free = gaps(Intervals(own[rows], (middle - half)[rows], 2 * half[rows]), len(radius))
-    u = np.column_stack([radius, np.zeros(len(radius))])[free.circle]
-    v = np.column_stack([np.zeros(len(radius)), radius])[free.circle]
-    return float(signed_areas(PlaneArcs(center[free.circle], u, v, free.start, free.sweep)).sum())
+    free = gaps(Intervals(own[rows], (middle - half)[rows], 2 * half[rows]), len(discs.radius))
+    u = np.column_stack([discs.radius, np.zeros(len(discs.radius))])[free.circle]
+    v = u[:, ::-1]
+    return float(PlaneArcs(discs.center[free.circle], u, v, free.start, free.sweep).signed_area().sum())
 
 
-def faces_not_seen(found: VisibilityMap, view: View) -> Ints:
+def arcs_beside_wrong_faces(view_map: VisibilityMap, view: View) -> Ints:
     """Return the arcs beside whose middle the nearest surface is not the face that the map names.
 
     Arcs that are too short to step beside are left out, and points at which two surfaces are closer than the step.
     """
-    arcs = found.arcs
-    middle = arcs.start + arcs.sweep / 2
-    along = arcs.v * np.cos(middle)[:, None] - arcs.u * np.sin(middle)[:, None]
+    arcs = view_map.arcs
+    middle = arcs.middle()
+    along = arcs.tangent(middle)
     size = np.linalg.norm(along, axis=1)
     step = SIDE_STEP * size * np.minimum(np.abs(arcs.sweep), 1.0)
-    rows = np.flatnonzero(step > LEAST_STEP * found.spheres.radius.max())
+    rows = np.flatnonzero(step > LEAST_STEP * view_map.spheres.radius.max())
     left = np.column_stack([-along[rows, 1], along[rows, 0]]) / size[rows, None] * step[rows, None]
-    own = found.circles.first[found.circle[rows]]
+    own = view_map.curves.first[view_map.curve_arcs.curve[rows]]
     wrong = np.zeros(len(rows), dtype=bool)
-    for side, face in ((1.0, found.left), (-1.0, found.right)):
+    for side, face in ((1.0, view_map.left), (-1.0, view_map.right)):
         points = arcs.take(rows).at(middle[rows]) + side * left
-        margin, nearest = _nearest_surface(found, own, points, view)
+        margin, nearest = _nearest_surface(view_map, own, points, view)
         wrong |= (nearest != face[rows]) & (margin > CLEAR * step[rows])
     return rows[wrong]
 
 
-def _nearest_surface(found: VisibilityMap, own: Ints, points: Floats, view: View) -> tuple[Floats, Ints]:
+def _nearest_surface(view_map: VisibilityMap, own: Ints, points: Floats, view: View) -> tuple[Floats, Ints]:
     """The sphere seen at each page point, on or beside the image of sphere ``own``, and by how much it is nearer."""
-    projection = projection_of(view)
-    near = overlaps(discs_of(found.horizons(), projection))
+    near = overlaps(discs_of(view_map.horizons(), projection_of(view)))
     row, entry = expand(near.start[own], near.start[own + 1])
     row, sphere = np.append(row, np.arange(len(own))), np.append(near.item[entry], own)
-    surface = projection.surface(found.spheres, sphere, points[row])
+    surface = occluders_of(view_map.spheres, view).surface(sphere, points[row])
     order = np.lexsort((surface, row))
     best, nearest, second = (np.full(len(own), fill) for fill in (-np.inf, BACKGROUND, -np.inf))
     best[row[order]], nearest[row[order]] = surface[order], sphere[order]  # ascending: the last one is the nearest

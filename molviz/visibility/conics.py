@@ -12,7 +12,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats
 from molviz.geometry.intervals import above
-from molviz.visibility.projection import Quadratic
+from molviz.visibility.forms import Quadratic
 
 POLISH_STEPS = 3  # Newton steps for the roots themselves, quadratic from the lines' 1e-8 or better
 SMALL_FACTOR = 1e-3  # below this ratio of p and q, dividing by the smaller loses what the product e f still knows

@@ -10,7 +10,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.rows import blocks, expand
-from molviz.model.spheres import Spheres
+from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.projection import Projection, images_of
 
 MOST_CELLS = 2048  # per axis
@@ -27,24 +27,24 @@ class _Cells(NamedTuple):
     high: Ints  # (n, 2)
 
 
-def possibly_visible(spheres: Spheres, projection: Projection) -> Bools:
-    """Return which of n spheres (eye coordinates) may be seen (n,), in time linear in n for atoms."""
+def possibly_visible(spheres: SphereOccluders, projection: Projection) -> Bools:
+    """Return which of n spheres may be seen (n,), in time linear in n for atoms."""
     cells = _cells(spheres, projection)
     count = int(cells.high[:, 1].max()) + 1
     nearest_cover = np.full(count * cells.wide, -np.inf)
     touched = []
     for sphere, cell, low in _rows(cells):
-        least, most = projection.surface_bounds(spheres, sphere, low, cells.side)
+        least, most = spheres.surface_bounds(sphere, low, cells.side)
         covering = np.flatnonzero(least > -np.inf)
         np.maximum.at(nearest_cover, cell[covering], least[covering])
         touched.append((sphere, cell, most))
-    visible: Bools = np.zeros(len(spheres.radius), dtype=bool)
+    visible: Bools = np.zeros(len(cells.low), dtype=bool)
     for sphere, cell, most in touched:
         visible[sphere[most > nearest_cover[cell]]] = True
     return visible
 
 
-def _cells(spheres: Spheres, projection: Projection) -> _Cells:
+def _cells(spheres: SphereOccluders, projection: Projection) -> _Cells:
     """A grid by Franklin's formula for deep scenes, ``L = R (0.6 − 0.078 ln D)`` with depth D."""
     center, half = outlines(spheres, projection)
     low, high = (center - half).min(axis=0), (center + half).max(axis=0)
@@ -57,20 +57,20 @@ def _cells(spheres: Spheres, projection: Projection) -> _Cells:
     return _Cells(low, side, int(last.max()) + 1, first, last)
 
 
-def outlines(spheres: Spheres, projection: Projection) -> tuple[Floats, Floats]:
+def outlines(spheres: SphereOccluders, projection: Projection) -> tuple[Floats, Floats]:
     """Return centre and half-extent (n, 2) of the bounding box of each sphere's image."""
-    images = images_of(projection.horizons(spheres), projection)
+    images = images_of(spheres.horizons(), projection)
     return images.c, images.half_extent()
 
 
 def _rows(cells: _Cells) -> list[tuple[Ints, Ints, Floats]]:
     """All (sphere, cell) of the bounding boxes with the cells' lower left corners, in blocks."""
     width, height = (cells.high - cells.low + 1).T
-    found = []
+    rows = []
     for block in blocks(width * height, BLOCK_ROWS):
         sphere, place = expand(np.zeros_like(width[block]), (width * height)[block])
         sphere += block.start
         row, column = np.divmod(place, width[sphere])
         x, y = cells.low[sphere, 0] + column, cells.low[sphere, 1] + row
-        found.append((sphere, y * cells.wide + x, cells.origin + np.stack([x, y], axis=1) * cells.side))
-    return found
+        rows.append((sphere, y * cells.wide + x, cells.origin + np.stack([x, y], axis=1) * cells.side))
+    return rows

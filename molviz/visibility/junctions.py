@@ -5,21 +5,20 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.geometry.circles import Circles
 from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
 from molviz.geometry.rows import expand
-from molviz.model.spheres import Spheres
+from molviz.visibility.curves import Curves
 from molviz.visibility.named_arcs import TEE, WHOLE, NamedArcs, vertex_numbers
-from molviz.visibility.projection import Projection
+from molviz.visibility.occluders.sphere import SphereOccluders
 
 SNAP = 1e-9  # radians by which rounding may put a junction outside the arc it lies on
 
 
-class Edges(NamedTuple):
-    """Arcs of circles between numbered vertices."""
+class CurveArcs(NamedTuple):
+    """Arcs of curves between numbered vertices."""
 
-    circle: Ints  # (k,)
+    curve: Ints  # (k,)
     start: Floats  # (k,) radians
     sweep: Floats  # (k,) radians
     origin: Ints  # (k,)
@@ -34,13 +33,14 @@ class _Junctions(NamedTuple):
     vertex: Ints
 
 
-def split_at_junctions(
-    named: NamedArcs, circles: Circles, horizons: Circles, spheres: Spheres, projection: Projection
-) -> Edges:
-    """Return the arcs as edges of the map; raises ``Degenerate`` where a junction lies on no visible horizon."""
+def split_at_junctions(named: NamedArcs, curves: Curves, horizons: Curves, spheres: SphereOccluders) -> CurveArcs:
+    """Return the arcs as those of the map; raises ``Degenerate`` where a junction lies on no visible horizon.
+
+    ``horizons`` are the last of the ``curves``.
+    """
     origin, target = vertex_numbers(named.origin, named.target)
     tees = [
-        _junctions(named, circles, horizons, spheres, projection, name, vertex, fraction)
+        _junctions(named, curves, horizons, spheres, name, vertex, fraction)
         for name, vertex, fraction in ((named.origin, origin, 0.0), (named.target, target, 1.0))
     ]
     return _split(named, origin, target, _Junctions(*(np.concatenate(column) for column in zip(*tees, strict=True))))
@@ -48,10 +48,9 @@ def split_at_junctions(
 
 def _junctions(
     named: NamedArcs,
-    circles: Circles,
-    horizons: Circles,
-    spheres: Spheres,
-    projection: Projection,
+    curves: Curves,
+    horizons: Curves,
+    spheres: SphereOccluders,
     name: Ints,
     vertex: Ints,
     fraction: float,
@@ -59,21 +58,21 @@ def _junctions(
     """Where the arcs that end in a TEE, at their starts (fraction 0) or ends (1), meet the horizon above them."""
     rows = np.flatnonzero(name[:, 0] >> 1 == TEE)
     above = name[rows, 2]
-    points = circles.at(named.circle[rows], named.start[rows] + fraction * named.sweep[rows])
-    angle = projection.horizon_angle(spheres, horizons, above, points)
-    arc, offset = _located(named, len(circles.first) - len(horizons.first) + above, angle)
+    points = curves.at(named.curve[rows], named.start[rows] + fraction * named.sweep[rows])
+    angle = spheres.horizon_angle(horizons, above, points)
+    arc, offset = _located(named, len(curves.first) - len(horizons.first) + above, angle)
     return _Junctions(arc, offset, vertex[rows])
 
 
-def _located(named: NamedArcs, circle: Ints, angle: Floats) -> tuple[Ints, Floats]:
-    """The arc of each given circle on which the angle lies, and the offset from its start."""
-    begin, end = (np.searchsorted(named.circle, circle, side=side) for side in ("left", "right"))
+def _located(named: NamedArcs, curve: Ints, angle: Floats) -> tuple[Ints, Floats]:
+    """The arc of each given curve on which the angle lies, and the offset from its start."""
+    begin, end = (np.searchsorted(named.curve, curve, side=side) for side in ("left", "right"))
     row, arc = expand(begin, end)
     offset = np.mod(angle[row] - named.start[arc], TURN)
     sweep = named.sweep[arc]
     outside = np.where(offset <= sweep, 0.0, np.minimum(offset - sweep, TURN - offset))
     order = np.lexsort((-outside, row))
-    best = np.full(len(circle), -1)
+    best = np.full(len(curve), -1)
     best[row[order]] = order  # the last one written is the closest
     if np.any(best < 0) or np.any(outside[best] > SNAP):
         raise Degenerate
@@ -81,7 +80,7 @@ def _located(named: NamedArcs, circle: Ints, angle: Floats) -> tuple[Ints, Float
     return arc[best], inside
 
 
-def _split(named: NamedArcs, origin: Ints, target: Ints, tees: _Junctions) -> Edges:
+def _split(named: NamedArcs, origin: Ints, target: Ints, tees: _Junctions) -> CurveArcs:
     """Cut every arc at its junctions; a whole circle begins and ends at its first one."""
     count = len(origin)
     first = np.full(count, np.inf)
@@ -99,8 +98,8 @@ def _split(named: NamedArcs, origin: Ints, target: Ints, tees: _Junctions) -> Ed
     order = np.lexsort((offset, place, arc))
     arc, offset, vertex = arc[order], offset[order], vertex[order]
     piece = np.flatnonzero(arc[1:] == arc[:-1])
-    return Edges(
-        named.circle[arc[piece]],
+    return CurveArcs(
+        named.curve[arc[piece]],
         named.start[arc[piece]] + offset[piece],
         offset[piece + 1] - offset[piece],
         vertex[piece],

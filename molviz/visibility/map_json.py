@@ -5,59 +5,62 @@ from typing import Any
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.visibility.half_edges import loop_areas
+from molviz.geometry.planar_map import loop_areas
+from molviz.visibility.curves import KINDS
+from molviz.visibility.eye import eye_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.view import View
 
 
-def map_as_data(found: VisibilityMap, atom: Ints, view: View) -> dict[str, Any]:
+def map_as_data(view_map: VisibilityMap, atom: Ints, view: View) -> dict[str, Any]:
     """Return the map in view coordinates: the molecule's own, turned by ``view`` (its origin where the file's is).
 
     ``atom`` (s,) is each sphere's row in the input. Spheres are those the map was computed for: displaced by less than
     1e-4 of their radius from the input, and without those that are certainly hidden.
     """
     origin = view.rotation @ view.center
-    shift = origin + [0.0, 0.0, view.distance or 0.0]
+    shift = origin + eye_of(view)
     return {
         "format": "molviz-visibility-map",
         "version": 1,
         "units": "angstrom",
         "view": view.rotation.tolist(),
-        "spheres": _spheres(found, atom, shift),
-        "arcs": _arcs(found, origin[:2]),
-        "faces": _faces(found),
+        "spheres": _spheres(view_map, atom, shift),
+        "arcs": _arcs(view_map, origin[:2]),
+        "faces": _faces(view_map),
     }
 
 
-def _spheres(found: VisibilityMap, atom: Ints, shift: Floats) -> list[dict[str, Any]]:
-    rows = zip((found.spheres.center + shift).tolist(), found.spheres.radius.tolist(), atom.tolist(), strict=True)
+def _spheres(view_map: VisibilityMap, atom: Ints, shift: Floats) -> list[dict[str, Any]]:
+    rows = zip((view_map.spheres.center + shift).tolist(), view_map.spheres.radius.tolist(), atom.tolist(), strict=True)
     return [{"center": center, "radius": radius, "atom": number} for center, radius, number in rows]
 
 
-def _arcs(found: VisibilityMap, origin: Floats) -> list[dict[str, Any]]:
-    pairs = np.column_stack([found.circles.first[found.circle], found.circles.second[found.circle]])
-    arcs = found.arcs
+def _arcs(view_map: VisibilityMap, origin: Floats) -> list[dict[str, Any]]:
+    curve = view_map.curve_arcs.curve
+    second = np.where(view_map.is_crease(), view_map.curves.second[curve], -1)
+    arcs = view_map.arcs
     columns = {
-        "kind": np.where(found.is_crease(), "crease", "horizon"),
-        "spheres": pairs,
+        "kind": np.array(KINDS)[view_map.curves.kind[curve]],
+        "spheres": np.column_stack([view_map.curves.first[curve], second]),
         "c": arcs.c + origin,
         "u": arcs.u,
         "v": arcs.v,
         "start": arcs.start,
         "sweep": arcs.sweep,
-        "left": found.left,
-        "right": found.right,
-        "from": found.origin,
-        "to": found.target,
+        "left": view_map.left,
+        "right": view_map.right,
+        "from": view_map.curve_arcs.origin,
+        "to": view_map.curve_arcs.target,
     }
     return [dict(zip(columns, row, strict=True)) for row in zip(*(c.tolist() for c in columns.values()), strict=True)]
 
 
-def _faces(found: VisibilityMap) -> list[dict[str, Any]]:
-    areas = loop_areas(found.arcs, found.loops)
-    start, edges = found.loops.start.tolist(), found.loops.half_edge.tolist()
+def _faces(view_map: VisibilityMap) -> list[dict[str, Any]]:
+    areas = loop_areas(view_map.arcs, view_map.loops)
+    start, edges = view_map.loops.start.tolist(), view_map.loops.half_edge.tolist()
     faces: dict[int, dict[str, Any]] = {}
-    for row, sphere in enumerate(found.loops.face.tolist()):
+    for row, sphere in enumerate(view_map.loops.face.tolist()):
         if sphere == BACKGROUND:
             continue
         face = faces.setdefault(sphere, {"sphere": sphere, "area": 0.0, "loops": []})

@@ -3,7 +3,7 @@
 Where an arc ends is known by *why* it ends, never by comparing coordinates. Three reasons, three kinds of vertex:
 
 * ``TRIPLE (i, j, k)``: the crease of two spheres enters a third ball; the creases of all three pairs end there.
-* ``RIM (i, j)``: the horizon of i enters ball j; the crease of i and j, which sinks below the horizon there, ends too.
+* ``ENTRY (i, j)``: the horizon of i enters ball j; the crease of i and j, which sinks below it there, ends too.
 * ``TEE (a, k)``: arc a passes under the horizon of a nearer sphere k, and nothing else ends there.
 
 Three spheres, or a horizon and a sphere, meet in two points, mirror images of each other; ``side`` tells which. An
@@ -16,11 +16,11 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.geometry.circles import Circles
 from molviz.geometry.intervals import Intervals, gaps
+from molviz.visibility.curves import Curves
 
-TRIPLE, RIM, TEE, WHOLE = range(4)
-BALL, HORIZON, SHADOW = range(3)  # what hides an interval: a ball, the curve's own sphere, a sphere in front
+TRIPLE, ENTRY, TEE, WHOLE = range(4)
+BALL, OWN, FRONT = range(3)  # why an interval is hidden: inside a ball, behind the curve's own sphere, or one in front
 
 
 class Hidden(NamedTuple):
@@ -33,18 +33,18 @@ class Hidden(NamedTuple):
     curve: Ints  # (m,)
     start: Floats  # (m,) radians
     sweep: Floats  # (m,) radians
-    reason: Ints  # (m,) BALL, HORIZON or SHADOW
+    reason: Ints  # (m,) BALL, OWN or FRONT
     leaves: Ints  # (m,)
     enters: Ints  # (m,)
 
 
 class NamedArcs(NamedTuple):
-    """k arcs of circles with the names of the vertices they run between: kind × 2 + side, and three numbers."""
+    """k arcs of curves with the names of the vertices they run between: kind × 2 + side, and three numbers."""
 
-    circle: Ints  # (k,)
+    curve: Ints  # (k,)
     start: Floats  # (k,) radians
     sweep: Floats  # (k,) radians, (0, 2π]
-    curve: Ints  # (k,) the curve, as numbered in the hidden intervals
+    instance: Ints  # (k,) the curve as numbered in the hidden intervals, which may name one curve several times
     origin: Ints  # (k, 4)
     target: Ints  # (k, 4)
 
@@ -54,31 +54,29 @@ def joined(parts: list[Hidden]) -> Hidden:
     return Hidden(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
-def visible_arcs(circles: Circles, curve_circle: Ints, hidden: Hidden) -> NamedArcs:
-    """Return what the hidden intervals leave of each curve; curve c runs on circle ``curve_circle[c]``."""
-    free = gaps(Intervals(hidden.curve, hidden.start, hidden.sweep), len(curve_circle))
-    circle = curve_circle[free.circle]
-    number = np.arange(len(circle))
-    origin = _names(circles, circle, number, hidden.reason, hidden.leaves, free.before, 1)
-    target = _names(circles, circle, number, hidden.reason, hidden.enters, free.after, 0)
-    return NamedArcs(circle, free.start, free.sweep, free.circle, origin, target)
+def visible_arcs(curves: Curves, instance_curve: Ints, hidden: Hidden) -> NamedArcs:
+    """Return what the hidden intervals leave of each curve; their number c means the curve ``instance_curve[c]``."""
+    free = gaps(Intervals(hidden.curve, hidden.start, hidden.sweep), len(instance_curve))
+    curve = instance_curve[free.circle]
+    number = np.arange(len(curve))
+    origin = _names(curves, curve, number, hidden.reason, hidden.leaves, free.before, 1)
+    target = _names(curves, curve, number, hidden.reason, hidden.enters, free.after, 0)
+    return NamedArcs(curve, free.start, free.sweep, free.circle, origin, target)
 
 
-def _names(
-    circles: Circles, circle: Ints, number: Ints, reason: Ints, sphere: Ints, row: Ints, side: int
-) -> Ints:
+def _names(curves: Curves, curve: Ints, number: Ints, reason: Ints, sphere: Ints, row: Ints, side: int) -> Ints:
     """Names (k, 4) of the ends of arcs at ends (side 1) or starts (side 0) of the given hidden intervals."""
-    first, second = circles.first[circle], circles.second[circle]
+    first, second = curves.first[curve], curves.second[curve]
     why, other = np.append(reason, -1)[row], np.append(sphere, -1)[row]
-    is_crease, whole = second >= 0, row < 0
-    name = _named(np.full(len(circle), TEE), side, number, other, -1)
-    name[whole] = _named(np.full(len(circle), WHOLE), 0, number, -1, -1)[whole]
+    is_crease, whole = curves.is_crease()[curve], row < 0
+    name = _named(np.full(len(curve), TEE), side, number, other, -1)
+    name[whole] = _named(np.full(len(curve), WHOLE), 0, number, -1, -1)[whole]
     triple = ~whole & is_crease & (why == BALL)
     name[triple] = _triple(first[triple], second[triple], other[triple], side)
-    sinks = ~whole & is_crease & (why == HORIZON)
-    name[sinks] = _rim(other[sinks], (first + second - other)[sinks], side ^ (other == second)[sinks])
+    sinks = ~whole & is_crease & (why == OWN)
+    name[sinks] = _entry(other[sinks], (first + second - other)[sinks], side ^ (other == second)[sinks])
     enters = ~whole & ~is_crease & (why == BALL)
-    name[enters] = _rim(first[enters], other[enters], np.full(int(enters.sum()), side))
+    name[enters] = _entry(first[enters], other[enters], np.full(int(enters.sum()), side))
     return name
 
 
@@ -94,8 +92,8 @@ def _triple(i: Ints, j: Ints, k: Ints, side: int) -> Ints:
     return _named(np.full(len(i), TRIPLE), side ^ odd, low, i + j + k - low - high, high)
 
 
-def _rim(sphere: Ints, other: Ints, side: Ints) -> Ints:
-    return _named(np.full(len(sphere), RIM), side, sphere, other, -1)
+def _entry(sphere: Ints, other: Ints, side: Ints) -> Ints:
+    return _named(np.full(len(sphere), ENTRY), side, sphere, other, -1)
 
 
 def vertex_numbers(*names: Ints) -> list[Ints]:

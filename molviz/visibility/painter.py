@@ -12,12 +12,13 @@ import numpy as np
 from molviz.arrays import Bools, Ints
 from molviz.curves import PlaneArcs
 from molviz.geometry.boundary import Boundary, inside_ball
-from molviz.geometry.circles import Circles
+from molviz.geometry.planar_map import UNUSED, Loops, PlanarMap, loops, planar_map
 from molviz.geometry.rows import expand
-from molviz.model.spheres import Spheres
-from molviz.visibility.curves_in_view import beyond_own_plane, merged, outside_free_arcs, rotated_circles
-from molviz.visibility.half_edges import UNUSED, Loops, chained, directed, loops
+from molviz.visibility.curves import Curves
+from molviz.visibility.junctions import CurveArcs
 from molviz.visibility.named_arcs import BALL, Hidden, NamedArcs, joined, vertex_numbers, visible_arcs
+from molviz.visibility.occluders.sphere import SphereOccluders
+from molviz.visibility.own_occlusion import beyond_own_plane, creases_in_view, outside_free_arcs
 from molviz.visibility.projection import Projection
 from molviz.visibility.view import View
 
@@ -26,32 +27,40 @@ class Pieces(NamedTuple):
     """The painter's pieces of one view; page coordinates in ångström."""
 
     order: Ints  # (s,) spheres with a piece, back to front
-    arcs: PlaneArcs  # (k,)
-    circle: Ints  # (k,) the circle each arc belongs to, numbered anyhow
-    origin: Ints  # (k,) vertex numbers
-    target: Ints  # (k,)
-    is_crease: Bools  # (k,)
-    loops: Loops  # by sphere; face is the sphere
+    curves: Curves  # creases, then horizons; eye coordinates
+    curve_arcs: CurveArcs  # (k,) the arcs on their curves
+    arcs: PlaneArcs  # (k,) the same on the page
+    edges: PlanarMap  # (2k,) its faces are the spheres
+    loops: Loops  # by sphere
+
+    def is_crease(self) -> Bools:
+        """Return which arcs (k,) are creases; the others are horizons."""
+        return self.curves.is_crease()[self.curve_arcs.curve]
+
+    def __repr__(self) -> str:
+        return f"<Pieces: {len(self.order)} spheres, {len(self.curve_arcs.curve)} arcs>"
 
 
-def painter_pieces(boundary: Boundary, seen: Spheres, wanted: Ints, view: View, projection: Projection) -> Pieces:
-    """Return the pieces of the ``wanted`` spheres; ``seen`` are the boundary's spheres in eye coordinates.
+def painter_pieces(
+    boundary: Boundary, spheres: SphereOccluders, wanted: Ints, view: View, projection: Projection
+) -> Pieces:
+    """Return the pieces of the ``wanted`` spheres; ``spheres`` are the boundary's in eye coordinates.
 
     Raises ``Degenerate`` if the spheres are not in general position.
     """
-    count = len(seen.radius)
-    keep = np.zeros(count, dtype=bool)
+    keep = np.zeros(len(boundary.spheres.radius), dtype=bool)
     keep[wanted] = True
-    creases = rotated_circles(boundary.circles, view)
-    circles = merged(creases, projection.horizons(seen))
+    creases = creases_in_view(boundary.circles, view)
+    curves = creases.followed_by(spheres.horizons())
     arc, own = _sides(boundary, keep)
-    curve_circle = np.concatenate([boundary.arcs.circle[arc], len(creases.first) + wanted])
+    instance_curve = np.concatenate([boundary.arcs.circle[arc], len(creases.first) + wanted])
     hidden = joined([
         outside_free_arcs(boundary, arc),
-        beyond_own_plane(seen, circles, projection, boundary.arcs.circle[arc], own),
-        _horizons_in_balls(boundary, seen, circles, wanted, len(creases.first), len(arc)),
+        beyond_own_plane(spheres, curves, boundary.arcs.circle[arc], own),
+        _horizons_in_balls(boundary, spheres, curves, wanted, len(creases.first), len(arc)),
     ])  # fmt: skip
-    return _pieces(seen, circles, visible_arcs(circles, curve_circle, hidden), np.append(own, wanted), projection)
+    named = visible_arcs(curves, instance_curve, hidden)
+    return _chained(spheres, curves, named, np.append(own, wanted), projection)
 
 
 def _sides(boundary: Boundary, keep: Bools) -> tuple[Ints, Ints]:
@@ -63,28 +72,28 @@ def _sides(boundary: Boundary, keep: Bools) -> tuple[Ints, Ints]:
 
 
 def _horizons_in_balls(
-    boundary: Boundary, seen: Spheres, circles: Circles, wanted: Ints, offset: int, curves: int
+    boundary: Boundary, spheres: SphereOccluders, curves: Curves, wanted: Ints, offset: int, before: int
 ) -> Hidden:
+    """What neighbouring balls hide of the wanted horizons; ``offset`` curves and ``before`` instances come first."""
     near = boundary.neighbours
     row, entry = expand(near.start[wanted], near.start[wanted + 1])
     ball = near.item[entry]
-    middle, half = inside_ball(seen, circles, offset + wanted[row], ball)
+    middle, half = inside_ball(spheres.spheres, curves.circles(), offset + wanted[row], ball)
     rows = np.flatnonzero(half > 0)
     name, reason = ball[rows], np.full(len(rows), BALL)
-    return Hidden(curves + row[rows], (middle - half)[rows], 2 * half[rows], reason, name, name)
+    return Hidden(before + row[rows], (middle - half)[rows], 2 * half[rows], reason, name, name)
 
 
-def _pieces(seen: Spheres, circles: Circles, arcs: NamedArcs, owner: Ints, projection: Projection) -> Pieces:
+def _chained(
+    spheres: SphereOccluders, curves: Curves, named: NamedArcs, owner: Ints, projection: Projection
+) -> Pieces:
     """Chain the arcs of each sphere; the free part of ``second`` lies left of a crease, that of ``first`` right."""
-    label = owner[arcs.curve]
-    left = circles.first[arcs.circle] != label
-    is_crease = circles.second[arcs.circle] >= 0
-    forward = np.where(is_crease & ~left, UNUSED, label)
-    backward = np.where(is_crease & ~left, label, UNUSED)
-    face = directed(forward, backward)
-    origin, target = vertex_numbers(arcs.origin, arcs.target)
-    following = chained(face, directed(origin, target), directed(target, origin))
-    plane = projection.page_arcs(circles, arcs.circle, arcs.start, arcs.sweep)
-    spheres = np.unique(label)
-    order = spheres[np.argsort(projection.nearness(seen)[spheres], kind="stable")]
-    return Pieces(order, plane, arcs.circle, origin, target, is_crease, loops(face, following))
+    label = owner[named.instance]
+    right = curves.is_crease()[named.curve] & (curves.first[named.curve] == label)
+    curve_arcs = CurveArcs(named.curve, named.start, named.sweep, *vertex_numbers(named.origin, named.target))
+    left_face, right_face = np.where(right, UNUSED, label), np.where(right, label, UNUSED)
+    edges = planar_map(curve_arcs.origin, curve_arcs.target, left_face, right_face)
+    arcs = projection.page_arcs(curves, curve_arcs.curve, curve_arcs.start, curve_arcs.sweep)
+    seen = np.unique(label)
+    order = seen[np.argsort(spheres.nearness()[seen], kind="stable")]
+    return Pieces(order, curves, curve_arcs, arcs, edges, loops(edges))

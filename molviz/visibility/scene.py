@@ -1,4 +1,4 @@
-"""One drawing's geometry: spheres in general position, what may be seen of them, and the map or the pieces."""
+"""One scene, any number of views: spheres in general position, their union boundary, and the map or the pieces."""
 
 from collections.abc import Callable
 from typing import NamedTuple, TypeVar
@@ -6,73 +6,84 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.errors import InputError
 from molviz.geometry.boundary import Boundary, union_boundary
 from molviz.geometry.general_position import first_general, general_position
 from molviz.model.spheres import Spheres
 from molviz.visibility.culling import outlines, possibly_visible
-from molviz.visibility.map import VisibilityMap, visibility_map
+from molviz.visibility.eye import eye_coordinates, occluders_of, projection_of, refuse_eye_among
+from molviz.visibility.map import VisibilityMap, map_in_view
 from molviz.visibility.painter import Pieces, painter_pieces
-from molviz.visibility.projection import eye_coordinates, projection_of
 from molviz.visibility.view import View
 
 T = TypeVar("T")
 
 
-class Scene(NamedTuple):
-    """Spheres prepared for any number of views: their union boundary, and their rows in the caller's table."""
+class Prepared(NamedTuple):
+    """A displaced copy of a scene's spheres, and their rows in the scene."""
 
     boundary: Boundary
     row: Ints  # (s,)
 
 
-def prepared(spheres: Spheres, attempt: int = 0, view: View | None = None) -> Scene:
-    """Return the spheres in general position with their union boundary: the work that no view changes.
+class Scene:
+    """Spheres to look at. What no view changes, the displacement and the union boundary, is computed once and kept.
 
-    Where only one view is wanted, naming it here spares the work for spheres that it hides.
+    Where only one view is wanted, naming it spares the work for spheres that it hides; no other may be asked for then.
     """
-    moved, row = general_position(spheres, attempt)
-    if view is not None:
-        keep = np.flatnonzero(possibly_visible(eye_coordinates(moved, view), projection_of(view)))
-        moved, row = moved.take(keep), row[keep]
-    return Scene(union_boundary(moved), row)
+
+    def __init__(self, spheres: Spheres, only: View | None = None) -> None:
+        self.spheres, self.only = spheres, only
+        self._prepared: dict[int, Prepared] = {}
+
+    def __repr__(self) -> str:
+        return f"<Scene: {len(self.spheres.radius)} spheres>"
+
+    def map(self, view: View) -> tuple[VisibilityMap, Ints]:
+        """Return the visibility map and the row of each of its spheres.
+
+        Raises InputError if an eye lies inside the molecule.
+        """
+        return self._in_general_position(view, _map)
+
+    def pieces(self, view: View) -> tuple[Pieces, Ints]:
+        """Return the painter's pieces and the row of each sphere; raises as ``map`` does."""
+        return self._in_general_position(view, _pieces)
+
+    def _in_general_position(self, view: View, query: Callable[[Prepared, View], T]) -> T:
+        """The query's answer, displacing again as long as the spheres prove degenerate."""
+        refuse_eye_among(self.spheres, view)
+        return first_general(lambda attempt: query(self._attempt(attempt), view))
+
+    def _attempt(self, attempt: int) -> Prepared:
+        if attempt not in self._prepared:
+            self._prepared[attempt] = _prepare(self.spheres, attempt, self.only)
+        return self._prepared[attempt]
 
 
-def map_of_scene(scene: Scene, view: View) -> tuple[VisibilityMap, Ints]:
-    """Return the visibility map and the row of each of its spheres; raises ``Degenerate``."""
-    seen, wanted = _seen(scene, view)
-    found = visibility_map(scene.boundary, seen, wanted, view, projection_of(view))
-    return found, scene.row[wanted]
+def _prepare(spheres: Spheres, attempt: int, only: View | None) -> Prepared:
+    displaced, row = general_position(spheres, attempt)
+    if only is not None:
+        keep = _possibly_visible(displaced, only)
+        displaced, row = displaced.take(keep), row[keep]
+    return Prepared(union_boundary(displaced), row)
 
 
-def pieces_of_scene(scene: Scene, view: View) -> tuple[Pieces, Ints]:
-    """Return the painter's pieces and the row of each sphere; raises ``Degenerate``."""
-    seen, wanted = _seen(scene, view)
-    return painter_pieces(scene.boundary, seen, wanted, view, projection_of(view)), scene.row
+def _possibly_visible(spheres: Spheres, view: View) -> Ints:
+    occluders = occluders_of(eye_coordinates(spheres, view), view)
+    return np.flatnonzero(possibly_visible(occluders, projection_of(view)))
 
 
-def _seen(scene: Scene, view: View) -> tuple[Spheres, Ints]:
-    seen = eye_coordinates(scene.boundary.spheres, view)
-    return seen, np.flatnonzero(possibly_visible(seen, projection_of(view)))
+def _map(prepared: Prepared, view: View) -> tuple[VisibilityMap, Ints]:
+    spheres, wanted = prepared.boundary.spheres, _possibly_visible(prepared.boundary.spheres, view)
+    occluders = occluders_of(eye_coordinates(spheres, view), view)
+    view_map = map_in_view(prepared.boundary, occluders, wanted, view, projection_of(view))
+    return view_map, prepared.row[wanted]
 
 
-def in_one_view(spheres: Spheres, view: View, query: Callable[[Scene, View], T]) -> T:
-    """Return the query's answer for one view, perturbing again as long as the spheres prove degenerate.
-
-    Raises InputError if an eye lies inside the molecule, or (never seen) if no perturbation helps.
-    """
-    _refuse_eye_among(spheres, view)
-    return first_general(lambda attempt: query(prepared(spheres, attempt, view), view))
-
-
-def _refuse_eye_among(spheres: Spheres, view: View) -> None:
-    if view.distance is None:
-        return
-    seen = eye_coordinates(spheres, view)
-    nearest = float(np.max(seen.center[:, 2] + seen.radius))
-    if nearest >= 0:
-        needed = view.distance + nearest
-        raise InputError(f"the eye is not in front of all atoms; expected a distance above {needed:.2f} Å")
+def _pieces(prepared: Prepared, view: View) -> tuple[Pieces, Ints]:
+    spheres, wanted = prepared.boundary.spheres, _possibly_visible(prepared.boundary.spheres, view)
+    occluders = occluders_of(eye_coordinates(spheres, view), view)
+    return painter_pieces(prepared.boundary, occluders, wanted, view, projection_of(view)), prepared.row
 
 
 def extent(spheres: Spheres, view: View) -> tuple[Floats, Floats]:
@@ -80,6 +91,6 @@ def extent(spheres: Spheres, view: View) -> tuple[Floats, Floats]:
 
     Raises InputError if an eye is not in front of all of them.
     """
-    _refuse_eye_among(spheres, view)
-    center, half = outlines(eye_coordinates(spheres, view), projection_of(view))
+    refuse_eye_among(spheres, view)
+    center, half = outlines(occluders_of(eye_coordinates(spheres, view), view), projection_of(view))
     return (center - half).min(axis=0), (center + half).max(axis=0)

@@ -1,19 +1,21 @@
-"""What spheres in front hide of horizons and creases: intervals of the curves inside their balls and shadows."""
+"""What spheres in front hide of horizons and creases: intervals of the curves inside their balls and occlusions."""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.circles import Circles
 from molviz.geometry.grid import Neighbours, neighbours
 from molviz.geometry.intervals import TURN, above
 from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
 from molviz.vectors import dot
 from molviz.visibility.conics import Harmonics, harmonics, roots
-from molviz.visibility.named_arcs import BALL, SHADOW, Hidden
-from molviz.visibility.projection import Linear, Projection, images_of
+from molviz.visibility.curves import Curves
+from molviz.visibility.forms import Linear
+from molviz.visibility.named_arcs import BALL, FRONT, Hidden
+from molviz.visibility.occluders.sphere import SphereOccluders
+from molviz.visibility.projection import Projection, images_of
 
 BLOCK_ROWS = 1 << 16  # (curve, sphere) rows at a time, some forty columns each
 
@@ -25,9 +27,9 @@ class Discs(NamedTuple):
     radius: Floats  # (m,)
 
 
-def discs_of(circles: Circles, projection: Projection) -> Discs:
-    """Return a disc around the image of each circle, as small as its ellipse's major axis allows."""
-    image = images_of(circles, projection)
+def discs_of(curves: Curves, projection: Projection) -> Discs:
+    """Return a disc around the image of each curve, as small as its ellipse's major axis allows."""
+    image = images_of(curves, projection)
     return Discs(image.c, image.major())
 
 
@@ -37,37 +39,35 @@ def overlaps(discs: Discs) -> Neighbours:
     return neighbours(Spheres(flat, discs.radius))
 
 
-def shadows_on_horizons(
-    spheres: Spheres, horizons: Circles, projection: Projection, near: Neighbours, first_curve: int
-) -> Hidden:
+def horizons_hidden(spheres: SphereOccluders, horizons: Curves, near: Neighbours, first_curve: int) -> Hidden:
     """Return what all spheres hide of the horizons, which are curves ``first_curve`` onwards.
 
-    A horizon leaves the interval under a nearer sphere (a T-junction) or inside a farther ball (a rim).
+    A horizon leaves the interval under a nearer sphere (a T-junction) or inside a farther ball (an entry).
     """
     own = np.repeat(np.arange(len(near.start) - 1), np.diff(near.start))
     other = near.item
-    margin = projection.horizon_margin(spheres, horizons, own, other)
+    margin = spheres.horizon_margin(horizons, own, other)
     middle, half = above(margin.a, margin.b, -margin.c)
-    nearness = projection.nearness(spheres)
+    nearness = spheres.nearness()
     rows = np.flatnonzero(half > 0)
     own, other, middle, half = own[rows], other[rows], middle[rows], half[rows]
-    reason = np.where(nearness[other] > nearness[own], SHADOW, BALL)
+    reason = np.where(nearness[other] > nearness[own], FRONT, BALL)
     return Hidden(first_curve + own, middle - half, 2 * half, reason, other, other)
 
 
-def shadows_on_creases(
-    spheres: Spheres, circles: Circles, projection: Projection, near: Neighbours, discs: Discs, circle: Ints
+def creases_hidden(
+    spheres: SphereOccluders, creases: Curves, projection: Projection, near: Neighbours, discs: Discs
 ) -> list[Hidden]:
-    """Return what the shadows of nearer spheres hide of the creases; curve c is the crease ``circle[c]``.
+    """Return what nearer spheres hide of the creases, which are curves 0 onwards, in blocks.
 
     Only a sphere nearer than both spheres of a crease can hide what these leave of it: in a parallel view what they
-    leave lies above both centres, and a shadow lies below its sphere's.
+    leave lies above both centres, and an occlusion lies below its sphere's.
     """
-    own = circles.first[circle]
-    image = discs_of(circles.take(circle), projection)
-    nearness = projection.nearness(spheres)
-    nearest = np.maximum(nearness[own], nearness[circles.second[circle]])
-    found = []
+    own = creases.first
+    image = discs_of(creases, projection)
+    nearness = spheres.nearness()
+    nearest = np.maximum(nearness[own], nearness[creases.second])
+    hidden = []
     for block in blocks(near.start[own + 1] - near.start[own], 8 * BLOCK_ROWS):
         row, entry = expand(near.start[own[block]], near.start[own[block] + 1])
         curve, sphere = row + block.start, near.item[entry]
@@ -76,23 +76,21 @@ def shadows_on_creases(
         apart = image.center[curve] - discs.center[sphere]
         reach = image.radius[curve] + discs.radius[sphere]
         rows = np.flatnonzero(dot(apart, apart) < reach**2)
-        found += [
-            _shadow(spheres, circles, projection, circle, curve[part], sphere[part])
+        hidden += [
+            _occlusion(spheres, creases, curve[part], sphere[part])
             for part in np.array_split(rows, len(rows) // BLOCK_ROWS + 1)
         ]
-    return found
+    return hidden
 
 
-def _shadow(
-    spheres: Spheres, circles: Circles, projection: Projection, circle: Ints, curve: Ints, sphere: Ints
-) -> Hidden:
+def _occlusion(spheres: SphereOccluders, curves: Curves, curve: Ints, sphere: Ints) -> Hidden:
     """The intervals of each curve inside the sphere's cone and beyond its plane, by their end points.
 
     End points are the roots of the cone's function beyond the plane, and those of the plane's inside the cone; between
     consecutive ones a curve is hidden or not as a whole, as its middle is.
     """
-    cone = harmonics(projection.cone(spheres, circles, circle[curve], sphere))
-    plane = projection.plane_margin(spheres, circles, circle[curve], sphere)
+    cone = harmonics(spheres.cone(curves, curve, sphere))
+    plane = spheres.plane_margin(curves, curve, sphere)
     ends = _ends(cone, plane)
     ends.sort(axis=1)
     sweep = np.roll(ends, -1, axis=1) - ends
@@ -103,7 +101,7 @@ def _shadow(
     hidden = (cone.at(middle) < 0) & (plane.at(middle) > 0)
     row, column = np.nonzero(hidden)
     name = sphere[row]
-    reason = np.full(len(row), SHADOW)
+    reason = np.full(len(row), FRONT)
     return Hidden(curve[row], start[row, column], sweep[row, column], reason, name, name)
 
 

@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
+from molviz.discs.grid import NOBODY, CellLists, Grid, nearer, on_perimeter
 from molviz.geometry.intervals import Intervals, gaps
 from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
-from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, nearer, on_perimeter
 
 BLOCK_ROWS = 1 << 18  # pairs, intervals or tests at a time: keeps memory flat and the columns in cache
 TOUCH = 4.0 * np.finfo(float).eps  # of the lengths compared: perimeters this close to tangent touch and do not cross

@@ -16,13 +16,13 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
+from molviz.discs.arcs import DiscArcs
+from molviz.discs.grid import NOBODY, CellLists, Grid, foremost, nearer, on_perimeter
 from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
+from molviz.geometry.planar_map import cycles
 from molviz.geometry.rows import expand, offsets
 from molviz.model.spheres import Spheres
-from molviz.visibility.disc_grid import NOBODY, CellLists, Grid, foremost, nearer, on_perimeter
-from molviz.visibility.discs import DiscArcs
-from molviz.visibility.half_edges import cycles
 
 CLEAR = 1e-11  # radians, or of a radius: far more than rounding, far less than a displacement makes of a coincidence
 DISPLACEMENT = 1e-6  # of the smallest radius: no line is so thin

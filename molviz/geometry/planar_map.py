@@ -1,0 +1,106 @@
+"""Planar maps as half-edge columns: arc k forwards is half-edge 2k, backwards 2k + 1, so twin(e) = e XOR 1.
+
+Every half-edge has one face on its left. The region of a face is bounded by the half-edges that carry its label,
+chained at the vertices into loops: holes and separate parts come out by themselves. What the arcs are is not known
+here, so that the same map serves whatever is drawn in the plane or on a sphere.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from molviz.arrays import Floats, Ints
+from molviz.curves import PlaneArcs
+from molviz.geometry.components import components
+from molviz.geometry.general_position import Degenerate
+from molviz.geometry.rows import lists_taken
+
+UNUSED = -2  # label of a half-edge that bounds nothing
+
+
+class PlanarMap(NamedTuple):
+    """Half-edges of k arcs."""
+
+    origin: Ints  # (2k,) the vertex at which each starts; it ends where its twin starts
+    next: Ints  # (2k,) the half-edge that follows it along its face, −1 where it bounds nothing
+    face: Ints  # (2k,) the label of the face on its left, or UNUSED
+
+
+class Loops(NamedTuple):
+    """Closed chains of half-edges, ordered by face; CSR in one level."""
+
+    half_edge: Ints  # (m,)
+    start: Ints  # (loops + 1,)
+    face: Ints  # (loops,) label
+
+
+def directed(forward: Ints, backward: Ints) -> Ints:
+    """Interleave the columns of arcs for their two half-edges."""
+    return np.stack([forward, backward], axis=1).ravel()
+
+
+def planar_map(origin: Ints, target: Ints, left: Ints, right: Ints) -> PlanarMap:
+    """Return the map of k arcs between numbered vertices with the faces on their left and right.
+
+    At every vertex a face must be entered exactly as often as it is left, once in general position; raises
+    ``Degenerate`` where it is not.
+    """
+    begin, end, face = directed(origin, target), directed(target, origin), directed(left, right)
+    used = np.flatnonzero(face != UNUSED)
+    leaving = used[np.lexsort((face[used], begin[used]))]
+    arriving = used[np.lexsort((face[used], end[used]))]
+    balanced = np.array_equal(begin[leaving], end[arriving]) and np.array_equal(face[leaving], face[arriving])
+    again = (np.diff(begin[leaving]) == 0) & (np.diff(face[leaving]) == 0)
+    if not balanced or again.any():
+        raise Degenerate
+    following = np.full(len(face), -1)
+    following[arriving] = leaving
+    return PlanarMap(begin, following, face)
+
+
+def loops(edges: PlanarMap) -> Loops:
+    """Return the boundary loops of all faces, each from its smallest half-edge, ordered by face."""
+    half_edge, start = cycles(edges.next)
+    label = edges.face[half_edge[start[:-1]]] if len(half_edge) else np.empty(0, dtype=np.int64)
+    order = np.argsort(label, kind="stable")
+    row, start = lists_taken(start, order)
+    return Loops(half_edge[row], start, label[order])
+
+
+def cycles(following: Ints) -> tuple[Ints, Ints]:
+    """Return the cycles of a permutation one after the other, each from its lowest member, and CSR offsets.
+
+    Members followed by −1 are left out.
+    """
+    successor = following.tolist()
+    order: list[int] = []
+    start = [0]
+    for first in np.flatnonzero(following >= 0).tolist():
+        edge = first
+        while successor[edge] >= 0:
+            order.append(edge)
+            successor[edge], edge = -1, successor[edge]
+        if len(order) > start[-1]:
+            start.append(len(order))
+    return np.array(order, dtype=np.int64), np.array(start, dtype=np.int64)
+
+
+def euler_defect(edges: PlanarMap, boundary: Loops) -> int:
+    """Return V − E + L − 2 C for V vertices, E arcs, L boundary loops and C components, nought for a planar map.
+
+    Euler's V − E + F = 1 + C in other words: a face with h holes has 1 + h loops.
+    """
+    vertices, number = np.unique(edges.origin, return_inverse=True)
+    arcs = len(number) // 2
+    return int(len(vertices) - arcs + len(boundary.face) - 2 * components(number[::2], number[1::2], len(vertices)))
+
+
+def oriented(arcs: PlaneArcs, half_edge: Ints) -> PlaneArcs:
+    """Return the arcs in the direction of the given half-edges."""
+    return arcs.take(half_edge >> 1).reversed((half_edge & 1).astype(bool))
+
+
+def loop_areas(arcs: PlaneArcs, boundary: Loops) -> Floats:
+    """Return the signed area of each loop, ``½ ∮ x dy − y dx``; positive where the interior is inside."""
+    area = oriented(arcs, boundary.half_edge).signed_area()
+    return np.add.reduceat(area, boundary.start[:-1]) if len(boundary.half_edge) else np.empty(0)

@@ -1,0 +1,41 @@
+"""What a view means for the algorithms: coordinates, projection, occluders. Only here is it asked its distance."""
+
+import numpy as np
+
+from molviz.arrays import Floats
+from molviz.errors import InputError
+from molviz.model.spheres import Spheres
+from molviz.visibility.occluders.sphere import CentralSpheres, ParallelSpheres, SphereOccluders
+from molviz.visibility.projection import Central, Parallel, Projection
+from molviz.visibility.view import View
+
+
+def projection_of(view: View) -> Projection:
+    """Return the projection that a view asks for."""
+    return Parallel() if view.distance is None else Central(view.distance)
+
+
+def eye_of(view: View) -> Floats:
+    """Return the origin of eye coordinates (3,) in view coordinates: the eye itself, or the middle of the view."""
+    return np.array([0.0, 0.0, view.distance or 0.0])
+
+
+def eye_coordinates(spheres: Spheres, view: View) -> Spheres:
+    """Return spheres of the molecule's space in eye coordinates."""
+    turned = view.of(spheres)
+    return turned if view.distance is None else Spheres(turned.center - eye_of(view), turned.radius)
+
+
+def occluders_of(spheres: Spheres, view: View) -> SphereOccluders:
+    """Return spheres in eye coordinates as what hides."""
+    return ParallelSpheres(spheres) if view.distance is None else CentralSpheres(spheres, view.distance)
+
+
+def refuse_eye_among(spheres: Spheres, view: View) -> None:
+    """Raise InputError if the eye of a central view is not in front of all spheres of the molecule's space."""
+    if view.distance is None:
+        return
+    nearest = float(np.max(eye_coordinates(spheres, view).center[:, 2] + spheres.radius))
+    if nearest >= 0:
+        needed = view.distance + nearest
+        raise InputError(f"the eye is not in front of all atoms; expected a distance above {needed:.2f} Å")

@@ -1,0 +1,1 @@
+"""What hides: one module per kind of solid, with its silhouette curves and the half-spaces and quadrics behind it."""
