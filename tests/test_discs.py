@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from molviz.discs.arcs import DiscArcs, visible_arcs
+from molviz.discs.arcs import visible_perimeters
 from molviz.discs.grid import UNIT_SQUARE, Grid, bounding_square, cell_lists, franklin_count
+from molviz.geometry.circles import CircleArcs
 from molviz.model.scenes import random_scene, text_scene
 from molviz.model.spheres import Spheres
 from tests import disc_oracle
@@ -15,12 +16,12 @@ from tests.disc_scenes import discs_of, random_discs, scene_of
 EQUAL = 1e-9  # radians
 
 
-def arcs_on(scene: Spheres, count: int) -> DiscArcs:
+def arcs_on(scene: Spheres, count: int) -> CircleArcs:
     grid = Grid(bounding_square(scene), count)
-    return visible_arcs(scene, grid, cell_lists(scene, grid))[0]
+    return visible_perimeters(scene, grid, cell_lists(scene, grid))[0]
 
 
-def assert_equal(arcs: DiscArcs, expected: list[list[tuple[float, float]]]) -> None:
+def assert_equal(arcs: CircleArcs, expected: list[list[tuple[float, float]]]) -> None:
     """Compare circle by circle; an arc that starts within rounding of θ = 0 may come first or last."""
     for number, wanted in enumerate(expected):
         mine = arcs.circle == number
@@ -72,7 +73,7 @@ def test_ends_name_the_discs_that_hide_beyond_them() -> None:
 def test_franklins_own_run() -> None:
     """N = 10,000, R = 0.0178, G = 142: the figures of his Fig. 8, within the spread of random scenes."""
     scene, grid = random_scene(10000, radius=0.0178), Grid(UNIT_SQUARE, 142)
-    arcs, work = visible_arcs(scene, grid, cell_lists(scene, grid))
+    arcs, work = visible_perimeters(scene, grid, cell_lists(scene, grid))
     pieces = np.bincount(arcs.circle, minlength=10000)
     whole = np.count_nonzero(arcs.before < 0)
     assert work.cells_blocked == pytest.approx(19337, rel=0.05)

@@ -9,33 +9,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints
+from molviz.arrays import Bools, Ints
 from molviz.discs.grid import NOBODY, CellLists, Grid, nearer, on_perimeter
+from molviz.geometry.circles import CircleArcs
 from molviz.geometry.intervals import Intervals, gaps
 from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
 
 BLOCK_ROWS = 1 << 18  # pairs, intervals or tests at a time: keeps memory flat and the columns in cache
-TOUCH = 4.0 * np.finfo(float).eps  # of the lengths compared: perimeters this close to tangent touch and do not cross
-SLIVER = 1e-12  # radians: a shorter arc lies between two ends that rounding has torn apart
-
-
-class DiscArcs(NamedTuple):
-    """Visible arcs of perimeters, ordered by circle and start; angles counter-clockwise from the x axis.
-
-    ``before`` and ``after`` are the discs that hide the perimeter before the start and after the end of the arc;
-    −1 where the whole circle is visible.
-    """
-
-    circle: Ints  # (k,)
-    start: Floats  # (k,) radians in [0, 2π)
-    sweep: Floats  # (k,) radians in (0, 2π]
-    before: Ints  # (k,)
-    after: Ints  # (k,)
-
-    def take(self, rows: Ints | Bools) -> "DiscArcs":
-        """Return the given rows, in that order."""
-        return DiscArcs(self.circle[rows], self.start[rows], self.sweep[rows], self.before[rows], self.after[rows])
+TANGENT = 4.0 * np.finfo(float).eps  # of the lengths compared: perimeters this close to tangent touch and do not cross
+SHORTEST = 1e-12  # radians: a shorter arc lies between two ends that rounding has torn apart
 
 
 class Work(NamedTuple):
@@ -55,8 +38,11 @@ class Pairs(NamedTuple):
     near: Ints  # (m,)
 
 
-def visible_arcs(spheres: Spheres, grid: Grid, lists: CellLists) -> tuple[DiscArcs, Work]:
-    """Return the visible arcs of n ≥ 1 discs and the work it took; ``lists`` are those of the grid's cells.
+def visible_perimeters(spheres: Spheres, grid: Grid, lists: CellLists) -> tuple[CircleArcs, Work]:
+    """Return the visible arcs of n ≥ 1 discs' perimeters and the work it took; ``lists`` are the grid's cells'.
+
+    An arc's ``before`` and ``after`` are the discs that hide the perimeter beyond its ends; angles run
+    counter-clockwise from the x axis.
 
     Steps 4 and 5 of Franklin's section 5. Every change between visible and hidden along a perimeter happens where
     a pair on a common cell list crosses, so each arc that such pairs leave is wholly visible or wholly hidden, and
@@ -69,7 +55,7 @@ def visible_arcs(spheres: Spheres, grid: Grid, lists: CellLists) -> tuple[DiscAr
         crossing, touching = crossing + crossings, touching + touches
     columns = (np.concatenate(column) for column in zip(*visible, strict=True))
     blocked = int(np.count_nonzero(lists.blocker != NOBODY))
-    return DiscArcs(*columns), Work(len(lists.item), blocked, tested, crossing, touching)
+    return CircleArcs(*columns), Work(len(lists.item), blocked, tested, crossing, touching)
 
 
 def pairs_on_lists(spheres: Spheres, lists: CellLists) -> tuple[Pairs, int]:
@@ -99,7 +85,7 @@ def _meetings(lists: CellLists) -> Iterator[tuple[Ints, Ints]]:
         yield lists.item[block][owner], lists.item[other]
 
 
-def _arcs_of_blocks(spheres: Spheres, lists: CellLists, pairs: Pairs) -> Iterator[tuple[DiscArcs, int, int]]:
+def _arcs_of_blocks(spheres: Spheres, lists: CellLists, pairs: Pairs) -> Iterator[tuple[CircleArcs, int, int]]:
     """The arcs that the pairs leave of every disc on some list, in blocks of discs; crossing and touching pairs."""
     listed = np.zeros(len(spheres.radius), dtype=bool)
     listed[lists.item] = True
@@ -110,14 +96,14 @@ def _arcs_of_blocks(spheres: Spheres, lists: CellLists, pairs: Pairs) -> Iterato
         yield _remaining_arcs(spheres, disc[block], Pairs(pairs.far[rows], pairs.near[rows]))
 
 
-def _remaining_arcs(spheres: Spheres, disc: Ints, pairs: Pairs) -> tuple[DiscArcs, int, int]:
+def _remaining_arcs(spheres: Spheres, disc: Ints, pairs: Pairs) -> tuple[CircleArcs, int, int]:
     """The complement of the hidden arcs of some discs, and how many of the pairs cross and touch."""
     hidden, near, crossing, touching = hidden_intervals(spheres, pairs)
     numbered = Intervals(np.searchsorted(disc, hidden.circle), hidden.start, hidden.sweep)
     free = gaps(numbered, len(disc))
-    long = free.sweep > SLIVER
+    long = free.sweep > SHORTEST
     near = np.append(near, -1)
-    arcs = DiscArcs(disc[free.circle], free.start, free.sweep, near[free.before], near[free.after])
+    arcs = CircleArcs(disc[free.circle], free.start, free.sweep, near[free.before], near[free.after])
     return arcs.take(long), crossing, touching
 
 
@@ -132,7 +118,7 @@ def hidden_intervals(spheres: Spheres, pairs: Pairs) -> tuple[Intervals, Ints, i
     x, y = (spheres.center[pairs.near, axis] - spheres.center[pairs.far, axis] for axis in (0, 1))
     far, near = spheres.radius[pairs.far], spheres.radius[pairs.near]
     distance = np.hypot(x, y)
-    touch = TOUCH * (far + near)
+    touch = TANGENT * (far + near)
     apart, beyond, within = far + near - distance, distance + near - far, distance + far - near
     crosses = (apart > touch) & (beyond > touch) & (within > touch)
     covered = (within <= touch) & (near >= far)
@@ -147,7 +133,7 @@ def hidden_intervals(spheres: Spheres, pairs: Pairs) -> tuple[Intervals, Ints, i
     return hidden, pairs.near[rows], int(np.count_nonzero(crosses)), int(np.count_nonzero(touches))
 
 
-def _midpoint_hidden(spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscArcs) -> Bools:
+def _midpoint_hidden(spheres: Spheres, grid: Grid, lists: CellLists, arcs: CircleArcs) -> Bools:
     """Tell whether the midpoint of each arc is hidden: whether its disc is blocked in the midpoint's cell.
 
     The discs on the cell's list need no test, unlike in the paper, which stops forming pairs of a perimeter once it

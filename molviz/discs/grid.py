@@ -71,6 +71,11 @@ class _Rows(NamedTuple):
     high: Ints
 
 
+def by_depth(spheres: Spheres) -> Spheres:
+    """Return spheres in view coordinates, whose larger z is nearer, as discs, whose larger z is farther."""
+    return Spheres(spheres.center * [1.0, 1.0, -1.0], spheres.radius)
+
+
 def bounding_square(spheres: Spheres) -> Square:
     """Return the smallest square around all discs, from their lower left corner."""
     low, high = spheres.box()
@@ -110,8 +115,8 @@ def nearer(spheres: Spheres, one: Ints, other: Ints) -> Bools:
 
 def cell_lists(spheres: Spheres, grid: Grid) -> CellLists:
     """Return the blocking disc and the list of every cell, in time linear in the discs' size counted in cells."""
-    found = [_strip(spheres, grid, *strip) for strip in _strips(spheres, grid)]
-    blocker, length, item = (np.concatenate(column) for column in zip(*found, strict=True))
+    strips = [_strip(spheres, grid, *strip) for strip in _strips(spheres, grid)]
+    blocker, length, item = (np.concatenate(column) for column in zip(*strips, strict=True))
     return CellLists(blocker, np.concatenate([[0], np.cumsum(length)]), item)
 
 

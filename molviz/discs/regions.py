@@ -1,14 +1,8 @@
 """Hidden surfaces of discs: the visible region of every disc, bounded by visible arcs (Franklin 1980, section 1).
 
 Where a visible arc of disc k ends, it passes under a disc l: a T-junction on the perimeter of l, which runs on. Cut
-at its T-junctions, every visible arc has one disc on its inside, its own, and one on its outside. At a junction,
-with a the piece of l before it and b the piece after it (counter-clockwise), going with the region on the left:
-
-    k ends at l:     k forwards → a backwards,    b backwards → k backwards
-    k starts at l:   k backwards → a backwards,   b backwards → k forwards
-
-and l itself runs on, a forwards → b forwards. Loops close by these rules alone, without comparing coordinates.
-Half-edge 2p is piece p forwards, 2p + 1 backwards.
+at its T-junctions, every visible arc has one disc on its inside, its own, and one on its outside, the next behind it:
+with them it is an arc of a planar map, whose vertices are the junctions and whose loops bound the regions.
 """
 
 from typing import NamedTuple
@@ -16,11 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.discs.arcs import DiscArcs
 from molviz.discs.grid import NOBODY, CellLists, Grid, foremost, nearer, on_perimeter
+from molviz.geometry.circles import CircleArcs
 from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
-from molviz.geometry.planar_map import cycles
+from molviz.geometry.planar_map import Loops, loops, planar_map
 from molviz.geometry.rows import expand, offsets
 from molviz.model.spheres import Spheres
 
@@ -68,7 +62,7 @@ def displaced(spheres: Spheres, seed: int) -> Spheres:
     return Spheres(spheres.center + np.column_stack([shift, np.zeros(len(shift))]), spheres.radius)
 
 
-def visible_regions(spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscArcs) -> DiscRegions:
+def visible_regions(spheres: Spheres, grid: Grid, lists: CellLists, arcs: CircleArcs) -> DiscRegions:
     """Return the visible regions of discs whose visible arcs are given.
 
     Regions whose own perimeter is hidden are included (his Fig. 7). Raises ``Degenerate`` where arcs do
@@ -76,12 +70,13 @@ def visible_regions(spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscAr
     """
     junctions = _junctions(spheres, arcs)
     pieces = _cut(arcs, junctions)
-    edge, loop_start = cycles(_next_edges(arcs, junctions, pieces))
-    disc = _discs_of_loops(spheres, grid, lists, arcs, pieces, edge, loop_start)
-    return _assembled(arcs, pieces, edge, loop_start, disc)
+    circle = arcs.circle[pieces.arc]
+    behind = _next_behind(spheres, grid, lists, circle, pieces.start + 0.5 * pieces.sweep)
+    edges = planar_map(*_vertices(arcs, junctions, pieces), circle, behind)
+    return _assembled(arcs, pieces, loops(edges))
 
 
-def _junctions(spheres: Spheres, arcs: DiscArcs) -> _Junctions:
+def _junctions(spheres: Spheres, arcs: CircleArcs) -> _Junctions:
     """The T-junctions at both ends of every arc that is not a whole circle."""
     open_arcs = np.flatnonzero(arcs.before >= 0)
     arc = np.concatenate([open_arcs, open_arcs])
@@ -100,7 +95,7 @@ def _junctions(spheres: Spheres, arcs: DiscArcs) -> _Junctions:
     return junctions
 
 
-def _apart(arcs: DiscArcs, junctions: _Junctions) -> bool:
+def _apart(arcs: CircleArcs, junctions: _Junctions) -> bool:
     """Tell whether junctions lie within their hosts, clear of the hosts' ends and of each other."""
     host, offset = junctions.host, junctions.offset
     inside = (offset > CLEAR) & (offset < arcs.sweep[host] - CLEAR)
@@ -108,7 +103,7 @@ def _apart(arcs: DiscArcs, junctions: _Junctions) -> bool:
     return bool(np.all(inside) and np.all(between))
 
 
-def _host(arcs: DiscArcs, circle: Ints, angle: Floats) -> Ints:
+def _host(arcs: CircleArcs, circle: Ints, angle: Floats) -> Ints:
     """The arc of each circle that starts last before an angle, by one sort of starts and angles together."""
     count = len(arcs.circle)
     both = np.lexsort((np.concatenate([arcs.start, angle]), np.concatenate([arcs.circle, circle])))
@@ -121,7 +116,7 @@ def _host(arcs: DiscArcs, circle: Ints, angle: Floats) -> Ints:
     return np.where(through_zero, last, host)
 
 
-def _cut(arcs: DiscArcs, junctions: _Junctions) -> _Pieces:
+def _cut(arcs: CircleArcs, junctions: _Junctions) -> _Pieces:
     """Cut arcs at their junctions; a whole circle is cut open at the first of its own."""
     junction_start = offsets(junctions.host, len(arcs.circle))
     met = np.diff(junction_start)
@@ -141,49 +136,19 @@ def _piece_after(junctions: _Junctions, junction_start: Ints, whole: Bools, firs
     return first[junctions.host] + rank + np.where(whole[junctions.host], 0, 1)
 
 
-def _next_edges(arcs: DiscArcs, junctions: _Junctions, pieces: _Pieces) -> Ints:
-    """The half-edge that follows each half-edge along its region, by the rules of the module's first paragraph."""
-    whole = arcs.before < 0
+def _vertices(arcs: CircleArcs, junctions: _Junctions, pieces: _Pieces) -> tuple[Ints, Ints]:
+    """The vertices at which pieces start and end: the junctions, and one for every whole circle without any."""
+    whole, number = arcs.before < 0, np.arange(len(junctions.host))
+    own_end = np.full((2, len(whole)), -1)
+    own_end[junctions.at_end.astype(int), junctions.arc] = number
+    first, last = pieces.first[:-1], pieces.first[1:] - 1
+    origin = np.empty(len(pieces.arc), dtype=np.int64)
+    origin[first] = np.where(whole, len(number) + np.arange(len(whole)), own_end[0])
     after = _piece_after(junctions, offsets(junctions.host, len(whole)), whole, pieces.first)
-    first, last = pieces.first[junctions.host], pieces.first[junctions.host + 1] - 1
-    before = np.where(after > first, after - 1, last)
-    arc_end = pieces.first[junctions.arc + 1] - 1
-    arc_start = pieces.first[junctions.arc]
-
-    following = np.arange(2 * len(pieces.arc))  # whole circles without a junction follow themselves
-    following[2 * before] = 2 * after
-    end, start = junctions.at_end, ~junctions.at_end
-    following[2 * arc_end[end]] = 2 * before[end] + 1
-    following[2 * after[end] + 1] = 2 * arc_end[end] + 1
-    following[2 * arc_start[start] + 1] = 2 * before[start] + 1
-    following[2 * after[start] + 1] = 2 * arc_start[start]
-    return following
-
-
-def _discs_of_loops(
-    spheres: Spheres, grid: Grid, lists: CellLists, arcs: DiscArcs, pieces: _Pieces, edge: Ints, loop_start: Ints
-) -> Ints:
-    """The disc seen to the left of every loop, −1 for the background.
-
-    A loop with a forward half-edge belongs to that arc's disc. A loop without one has the disc next behind the
-    longest of its pieces.
-    """
-    circle = arcs.circle[pieces.arc[edge // 2]]
-    forward = edge % 2 == 0
-    lowest = np.minimum.reduceat(np.where(forward, circle, NOBODY), loop_start[:-1])
-    highest = np.maximum.reduceat(np.where(forward, circle, -1), loop_start[:-1])
-    if np.any((highest >= 0) & (lowest != highest)):
-        raise Degenerate
-    bare = np.flatnonzero(highest < 0)
-    loop = np.repeat(np.arange(len(highest)), np.diff(loop_start))
-    by_length = np.lexsort((spheres.radius[circle] * pieces.sweep[edge // 2], loop))
-    longest = edge[by_length[loop_start[1:] - 1]][bare] // 2
-    highest[bare] = _next_behind(spheres, grid, lists, arcs.circle[pieces.arc[longest]], _middle(pieces, longest))
-    return highest
-
-
-def _middle(pieces: _Pieces, piece: Ints) -> Floats:
-    return np.asarray(pieces.start[piece] + 0.5 * pieces.sweep[piece])
+    origin[after] = number
+    target = np.append(origin[1:], 0)
+    target[last] = np.where(whole, origin[first], own_end[1])
+    return origin, target
 
 
 def _next_behind(spheres: Spheres, grid: Grid, lists: CellLists, circle: Ints, angle: Floats) -> Ints:
@@ -198,23 +163,23 @@ def _next_behind(spheres: Spheres, grid: Grid, lists: CellLists, circle: Ints, a
     if np.any((np.abs(depth) < CLEAR * spheres.radius[disc]) & (disc != circle[point])):
         raise Degenerate
     behind = (depth > 0) & nearer(spheres, circle[point], disc)
-    found = foremost(spheres.center[:, 2], disc[behind], point[behind], len(circle))[1]
-    return np.where(found == NOBODY, -1, found)
+    behind_it = foremost(spheres.center[:, 2], disc[behind], point[behind], len(circle))[1]
+    return np.where(behind_it == NOBODY, -1, behind_it)
 
 
-def _assembled(arcs: DiscArcs, pieces: _Pieces, edge: Ints, loop_start: Ints, disc: Ints) -> DiscRegions:
-    """Group the loops by disc without those of the background, and rejoin the forward pieces of each arc."""
-    loops = np.flatnonzero(disc >= 0)
-    loops = loops[np.argsort(disc[loops], kind="stable")]
-    owner, row = expand(loop_start[loops], loop_start[loops + 1])
-    piece, forward = edge[row] // 2, edge[row] % 2 == 0
+def _assembled(arcs: CircleArcs, pieces: _Pieces, boundary: Loops) -> DiscRegions:
+    """The loops of all discs without those of the background; forward pieces of one arc are rejoined."""
+    kept_loops = np.flatnonzero(boundary.face >= 0)
+    owner, row = expand(boundary.start[kept_loops], boundary.start[kept_loops + 1])
+    half_edge = boundary.half_edge[row]
+    piece, forward = half_edge // 2, half_edge % 2 == 0
     sweep = np.where(forward, pieces.sweep[piece], -pieces.sweep[piece])
     start = np.where(forward, pieces.start[piece], pieces.start[piece] + pieces.sweep[piece])
     arc = pieces.arc[piece]
     joins = np.append(False, (owner[1:] == owner[:-1]) & forward[1:] & forward[:-1] & (arc[1:] == arc[:-1]))
     kept = np.flatnonzero(~joins[: len(row)])
-    region, first_loop = np.unique(disc[loops], return_index=True)
+    region, first_loop = np.unique(boundary.face[kept_loops], return_index=True)
     return DiscRegions(
         arcs.circle[arc[kept]], start[kept], np.add.reduceat(sweep, kept),
-        offsets(owner[kept], len(loops)), np.append(first_loop, len(loops)), region,
+        offsets(owner[kept], len(kept_loops)), np.append(first_loop, len(kept_loops)), region,
     )  # fmt: skip

@@ -18,7 +18,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints, Masks
 from molviz.geometry.caps import BINS, Caps, OpenCreases, open_creases
-from molviz.geometry.circles import Circles, creases, radical_planes
+from molviz.geometry.circles import CircleArcs, Circles, creases, radical_planes
 from molviz.geometry.grid import Neighbours, neighbours
 from molviz.geometry.intervals import TURN, Intervals, above, gaps
 from molviz.geometry.rows import blocks, expand, offsets
@@ -29,20 +29,6 @@ BLOCK_ENTRIES = 1 << 17  # entries (sphere, cap, cap) at a time: their temporari
 THREADS = 2
 
 
-class FreeArcs(NamedTuple):
-    """Arcs of circles outside all other balls, ordered by circle and start.
-
-    ``before`` and ``after`` are the spheres whose balls the crease leaves where the arc starts and enters where it
-    ends; −1 where the whole circle is free.
-    """
-
-    circle: Ints  # (k,)
-    start: Floats  # (k,) radians in [0, 2π)
-    sweep: Floats  # (k,) radians in (0, 2π]
-    before: Ints  # (k,)
-    after: Ints  # (k,)
-
-
 class Boundary(NamedTuple):
     """The union boundary of ``spheres``: the creases with a free part, ordered by their spheres, and the free arcs."""
 
@@ -51,7 +37,7 @@ class Boundary(NamedTuple):
     crossing: Neighbours  # the balls that cover a cap of each sphere and lie in no other ball
     inside: Bools  # (n,) balls that lie in another, or equal an earlier one
     circles: Circles  # first < second
-    arcs: FreeArcs
+    arcs: CircleArcs  # free of all other balls, with the balls that they leave and enter
 
 
 def union_boundary(spheres: Spheres, near: Neighbours | None = None) -> Boundary:
@@ -87,8 +73,8 @@ def _candidates(spheres: Spheres, crossing: Neighbours) -> OpenCreases:
     """The creases that may have a free part, of all spheres; crease numbers run through."""
     empty = np.empty(0, dtype=np.int64)
     with ThreadPoolExecutor(THREADS) as pool:
-        found = pool.map(lambda sphere: _of_block(_caps(spheres, crossing, sphere)), _blocks(crossing))
-        parts = [part for block in found for part in block]
+        lists = pool.map(lambda sphere: _of_block(_caps(spheres, crossing, sphere)), _blocks(crossing))
+        parts = [part for block in lists for part in block]
     parts.append(OpenCreases(empty, empty, empty.astype(np.uint64), empty, empty))
     begin = np.cumsum([0] + [len(part.first) for part in parts])
     shifted = [part._replace(crease=part.crease + at) for part, at in zip(parts, begin, strict=False)]
@@ -134,7 +120,7 @@ def _caps(spheres: Spheres, crossing: Neighbours, sphere: Ints) -> Caps:
     return Caps(sphere, item[rows, largest], axis[rows, largest], cosine[rows, largest])
 
 
-def _free_arcs(spheres: Spheres, circles: Circles, candidates: OpenCreases) -> tuple[Circles, FreeArcs]:
+def _free_arcs(spheres: Spheres, circles: Circles, candidates: OpenCreases) -> tuple[Circles, CircleArcs]:
     """The gaps that the balls leave of each circle, and the circles that have any."""
     middle, half = _crease_inside_ball(spheres, circles, candidates.crease, candidates.ball)
     real = half > 0
@@ -144,7 +130,7 @@ def _free_arcs(spheres: Spheres, circles: Circles, candidates: OpenCreases) -> t
     free = gaps(together, len(circles.first))
     name = np.append(candidates.ball[real], np.full(len(known.circle) + 1, -1))  # row −1: no interval, no ball
     open_circles, number = np.unique(free.circle, return_inverse=True)
-    arcs = FreeArcs(number, free.start, free.sweep, name[free.before], name[free.after])
+    arcs = CircleArcs(number, free.start, free.sweep, name[free.before], name[free.after])
     return circles.take(open_circles), arcs
 
 

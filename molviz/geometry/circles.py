@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints
+from molviz.arrays import Bools, Floats, Ints
 from molviz.model.spheres import Spheres
 
 
@@ -28,6 +28,24 @@ class Circles(NamedTuple):
     def take(self, rows: Ints) -> "Circles":
         """Return the given circles, in that order."""
         return Circles(self.first[rows], self.second[rows], self.center[rows], self.a[rows], self.b[rows])
+
+
+class CircleArcs(NamedTuple):
+    """k arcs of numbered circles, ordered by circle and start.
+
+    ``before`` and ``after`` are the spheres at which an arc starts and ends, those that cover the circle there;
+    −1 where it is a whole circle.
+    """
+
+    circle: Ints  # (k,)
+    start: Floats  # (k,) radians in [0, 2π)
+    sweep: Floats  # (k,) radians in (0, 2π]
+    before: Ints  # (k,)
+    after: Ints  # (k,)
+
+    def take(self, rows: Ints | Bools) -> "CircleArcs":
+        """Return the given rows, in that order."""
+        return CircleArcs(self.circle[rows], self.start[rows], self.sweep[rows], self.before[rows], self.after[rows])
 
 
 def perpendicular(axis: Floats) -> tuple[Floats, Floats]:

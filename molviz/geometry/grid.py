@@ -59,8 +59,8 @@ def intersecting_pairs(spheres: Spheres) -> tuple[Ints, Ints]:
     if len(spheres.radius) < 2:
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     index = grid_index(spheres)
-    found = [_meeting(index, *rows) for rows in _candidate_pairs(index)]
-    one, other = (index.row[np.concatenate(column)] for column in zip(*found, strict=True))
+    meetings = [_meeting(index, *rows) for rows in _candidate_pairs(index)]
+    one, other = (index.row[np.concatenate(column)] for column in zip(*meetings, strict=True))
     first, second = np.minimum(one, other), np.maximum(one, other)
     order = np.argsort(first * len(spheres.radius) + second)
     return first[order], second[order]
@@ -83,14 +83,14 @@ def balls_met(index: GridIndex, center: Floats, radius: Floats) -> Neighbours:
     if np.any(radius > index.side / 2):
         raise ValueError("a query ball may not be larger than the largest sphere of the index")
     place, known = _cube(index, center)
-    found_query, found_item = [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.int64)]
+    queries, items = [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.int64)]
     for column in COLUMNS:
         query, item = expand(*_column_range(index, place, known, column))
         gap = np.sum((center[query] - index.spheres.center[item]) ** 2, axis=1)
         met = gap < (radius[query] + index.spheres.radius[item]) ** 2
-        found_query.append(query[met])
-        found_item.append(index.row[item[met]])
-    query, item = np.concatenate(found_query), np.concatenate(found_item)
+        queries.append(query[met])
+        items.append(index.row[item[met]])
+    query, item = np.concatenate(queries), np.concatenate(items)
     order = np.lexsort((item, query))
     return Neighbours(offsets(query, len(radius)), item[order])
 

@@ -146,12 +146,12 @@ class _Token(NamedTuple):
 
 def _tokens(expression: str) -> list[_Token]:
     pattern = re.compile(r'"([^"]*)"|(<=|>=|==|!=|[()<>=])|([^\s(),<>=!"]+)|(\S)')
-    found = [
+    tokens = [
         _Token(next(group for group in match.groups() if group is not None), match.start(), match[1] is not None)
         for match in pattern.finditer(expression)
         if match[0] != ","
     ]
-    return [*found, _Token("", len(expression), False)]
+    return [*tokens, _Token("", len(expression), False)]
 
 
 class _Parser:
@@ -172,8 +172,8 @@ class _Parser:
 
     def error(self, expected: str) -> InputError:
         """Return the exception that says what was expected at the current token."""
-        found = repr(self.token.text) if self.token.text else "the end"
-        return InputError(f"selection {self.text!r}, position {self.token.start + 1}: {found}; expected {expected}")
+        shown = repr(self.token.text) if self.token.text else "the end"
+        return InputError(f"selection {self.text!r}, position {self.token.start + 1}: {shown}; expected {expected}")
 
     def take(self) -> str:
         """Consume the current token and return its text."""
@@ -242,12 +242,12 @@ class _Parser:
         return compare(column, self.number())
 
     def values(self) -> list[str]:
-        found: list[str] = []
+        words: list[str] = []
         while self.token.quoted or (self.word not in _RESERVED and re.match(r"[^()<>=!\"]", self.word)):
-            found.append(self.take())
-        if not found:
+            words.append(self.take())
+        if not words:
             raise self.error("a value (in double quotes if it is a word of the language)")
-        return found
+        return words
 
     def number(self) -> float:
         try:

@@ -1,4 +1,4 @@
-"""Arcs that continue each other become one path, and pieces of one circle one arc."""
+"""Arcs that continue each other become one path, and pieces of one curve one arc."""
 
 from typing import NamedTuple
 
@@ -17,21 +17,21 @@ class Chains(NamedTuple):
     closed: Bools  # (chains,)
 
 
-def linked(origin: Ints, target: Ints, circle: Ints, arcs: Ints) -> Chains:
+def linked(origin: Ints, target: Ints, curve: Ints, arcs: Ints) -> Chains:
     """Return the given arcs as chains, as long as they can be.
 
-    Where arcs meet in a vertex, two on the same circle continue each other; of what is left, two that are alone do.
+    Where arcs meet in a vertex, two on the same curve continue each other; of what is left, two that are alone do.
     """
     vertex = np.stack([origin[arcs], target[arcs]], axis=1).ravel()
-    partner = _partners(vertex, np.repeat(circle[arcs], 2))
+    partner = _partners(vertex, np.repeat(curve[arcs], 2))
     local, start, closed = _walked(partner)
     return Chains(2 * arcs[local >> 1] + (local & 1), start, closed)
 
 
-def _partners(vertex: Ints, circle: Ints) -> Ints:
+def _partners(vertex: Ints, curve: Ints) -> Ints:
     """For each end of an arc (2k its start, 2k + 1 its end) the end it continues with, or −1."""
     partner = np.full(len(vertex), -1)
-    for key in (circle, np.zeros(len(vertex), dtype=np.int64)):
+    for key in (curve, np.zeros(len(vertex), dtype=np.int64)):
         free = np.flatnonzero(partner < 0)
         order = free[np.lexsort((key[free], vertex[free]))]
         new = np.append(True, (np.diff(vertex[order]) != 0) | (np.diff(key[order]) != 0))[: len(order)]
@@ -60,13 +60,13 @@ def _walked(partner: Ints) -> tuple[Ints, Ints, Bools]:
     return np.array(order, dtype=np.int64), np.array(start), np.array(closed, dtype=bool)
 
 
-def merged(arcs: PlaneArcs, circle: Ints, chains: Chains) -> tuple[PlaneArcs, Ints]:
-    """Return the chains' arcs and CSR offsets, with neighbours on one circle merged into one arc.
+def merged(arcs: PlaneArcs, curve: Ints, chains: Chains) -> tuple[PlaneArcs, Ints]:
+    """Return the chains' arcs and CSR offsets, with neighbours on one curve merged into one arc.
 
-    A closed chain that lies on one circle altogether becomes a whole turn.
+    A closed chain that lies on one curve altogether becomes a whole turn.
     """
-    chains = _from_break(chains, _breaks(circle, chains))
-    breaks = _breaks(circle, chains)
+    chains = _from_break(chains, _breaks(curve, chains))
+    breaks = _breaks(curve, chains)
     breaks[chains.start[:-1]] = True
     first = np.flatnonzero(breaks)
     length = np.add.reduceat(arcs.sweep[chains.half_edge >> 1], first) if len(first) else np.empty(0)
@@ -78,12 +78,12 @@ def merged(arcs: PlaneArcs, circle: Ints, chains: Chains) -> tuple[PlaneArcs, In
     return rows._replace(start=begin, sweep=np.where(back, -length, length)), offset
 
 
-def _breaks(circle: Ints, chains: Chains) -> Bools:
-    """Which rows do not continue the row before (in a closed chain, the first row the last) on the same circle."""
+def _breaks(curve: Ints, chains: Chains) -> Bools:
+    """Which rows do not continue the row before (in a closed chain, the first row the last) on the same curve."""
     row = chains.half_edge
     before = np.arange(len(row)) - 1
     before[chains.start[:-1]] = chains.start[1:] - 1
-    same = (circle[row >> 1] == circle[row[before] >> 1]) & ((row & 1) == (row[before] & 1))
+    same = (curve[row >> 1] == curve[row[before] >> 1]) & ((row & 1) == (row[before] & 1))
     alone = before == np.arange(len(row))
     breaks: Bools = ~same | alone
     opens = chains.start[:-1][~chains.closed]

@@ -6,8 +6,8 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.curves import Paths, PlaneArcs
-from molviz.discs.arcs import DiscArcs
 from molviz.discs.regions import DiscRegions
+from molviz.geometry.circles import CircleArcs
 from molviz.model.spheres import Spheres
 from molviz.picture.coloring import on_ramp
 from molviz.picture.page import Page, Placement, place
@@ -23,13 +23,10 @@ class DiscLook:
 
     page: Page = Page(width=WIDTH)
     outline: float = 0.5
-    color: Color = (0, 0, 0)
     background: Color | None = None
 
 
-def disc_picture(
-    spheres: Spheres, arcs: DiscArcs, regions: DiscRegions | None, look: DiscLook, title: str = ""
-) -> Picture:
+def disc_picture(spheres: Spheres, arcs: CircleArcs, regions: DiscRegions | None, look: DiscLook) -> Picture:
     """Return a page with the visible arcs, over the visible regions if they are given.
 
     The box of all discs is that of what is visible: nothing hides the outermost points but discs that share them.
@@ -42,23 +39,15 @@ def disc_picture(
         layers.append(_strokes(spheres, placed, arcs, look))
     corners = [placed.scale * low + placed.shift - half, placed.scale * high + placed.shift + half]
     x0, y0, x1, y1 = np.concatenate(corners).tolist()
-    return Picture(
-        placed.width, placed.height, (x0, y0, x1, y1), layers, title=title, background=look.background
-    )
+    return Picture(placed.width, placed.height, (x0, y0, x1, y1), layers, background=look.background)
 
 
-def whole_circles(count: int) -> DiscArcs:
-    """Return every perimeter whole, as drawn before hidden lines are removed."""
-    nobody = np.full(count, -1)
-    return DiscArcs(np.arange(count), np.zeros(count), np.full(count, 2.0 * np.pi), nobody, nobody)
-
-
-def _strokes(spheres: Spheres, page: Placement, arcs: DiscArcs, look: DiscLook) -> StrokeLayer:
+def _strokes(spheres: Spheres, page: Placement, arcs: CircleArcs, look: DiscLook) -> StrokeLayer:
     """A shape a disc, an open loop an arc."""
     discs, first = np.unique(arcs.circle, return_index=True)
     curves = _plane_arcs(spheres, page, arcs.circle, arcs.start, arcs.sweep)
     paths = Paths(curves, np.arange(len(arcs.circle) + 1), np.append(first, len(arcs.circle)))
-    return StrokeLayer("visible arcs", paths, look.outline, look.color, _marks("s", discs))
+    return StrokeLayer("visible arcs", paths, look.outline, mark=_marks("s", discs))
 
 
 def _fills(spheres: Spheres, page: Placement, regions: DiscRegions) -> FillLayer:

@@ -8,19 +8,21 @@ from typing import TypeAlias
 
 import numpy as np
 
-from molviz.discs.arcs import DiscArcs, Work, visible_arcs
+from molviz.discs.arcs import Work, visible_perimeters
 from molviz.discs.grid import (
     UNIT_SQUARE,
     CellLists,
     Grid,
     Square,
     bounding_square,
+    by_depth,
     cell_lists,
     depth_complexity,
     franklin_count,
 )  # fmt: skip
 from molviz.discs.regions import DiscRegions, displaced, visible_regions
 from molviz.errors import InputError
+from molviz.geometry.circles import CircleArcs
 from molviz.geometry.general_position import Degenerate, first_general
 from molviz.model.scenes import random_scene, text_scene
 from molviz.model.spheres import Spheres
@@ -49,7 +51,7 @@ class HiddenDiscs:
     spheres: Spheres
     grid: Grid
     lists: CellLists
-    arcs: DiscArcs
+    arcs: CircleArcs
     work: Work
     seconds: float
 
@@ -101,7 +103,7 @@ def molecule_discs(loaded: Loaded, view_options: ViewOptions, across: int | None
     if view_options.distance is not None:
         raise InputError("discs are drawn in parallel projection; expected no --perspective", loaded.source)
     seen = view_of(loaded, view_options).of(loaded.spheres)
-    return hide_discs(Spheres(seen.center * [1.0, 1.0, -1.0], seen.radius), across=across)
+    return hide_discs(by_depth(seen), across=across)
 
 
 def hide_discs(spheres: Spheres, square: Square | None = None, across: int | None = None) -> HiddenDiscs:
@@ -116,7 +118,7 @@ def hide_discs(spheres: Spheres, square: Square | None = None, across: int | Non
     square = square or bounding_square(spheres)
     grid = Grid(square, across or franklin_count(spheres.radius, square))
     lists = cell_lists(spheres, grid)
-    arcs, work = visible_arcs(spheres, grid, lists)
+    arcs, work = visible_perimeters(spheres, grid, lists)
     return HiddenDiscs(spheres, grid, lists, arcs, work, time.perf_counter() - begin)
 
 
@@ -136,9 +138,9 @@ def _regions(scene: HiddenDiscs, attempt: int) -> DiscRegions:
     return visible_regions(scene.spheres, scene.grid, scene.lists, scene.arcs)
 
 
-def picture_of(scene: HiddenDiscs, look: DiscLook, fill: bool = False, title: str = "") -> Picture:
+def picture_of(scene: HiddenDiscs, look: DiscLook, fill: bool = False) -> Picture:
     """Return the scene's visible arcs on a page, over its visible regions if ``fill`` is wanted."""
-    return disc_picture(scene.spheres, scene.arcs, regions_of(scene) if fill else None, look, title)
+    return disc_picture(scene.spheres, scene.arcs, regions_of(scene) if fill else None, look)
 
 
 def drawn(scene: HiddenDiscs, suffix: str, look: DiscLook, fill: bool, plotter: str = "", paper: str = "") -> bytes:

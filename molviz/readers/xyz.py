@@ -67,8 +67,8 @@ def _frames(lines: list[bytes], source: str) -> list[Frame]:
 
 def _count(text: bytes, source: str, line: int) -> int:
     if not _COUNT.fullmatch(text):
-        found = text.decode("latin-1").strip()[:40]
-        raise InputError(f"{found!r}; expected the number of atoms of a frame", source, line)
+        shown = text.decode("latin-1").strip()[:40]
+        raise InputError(f"{shown!r}; expected the number of atoms of a frame", source, line)
     count = int(text)
     if count < 1:
         raise InputError(f"the count is {count}; expected at least one atom", source, line)
@@ -98,8 +98,8 @@ def _molecule(frame: Frame, source: str, told: dict[str, str]) -> Molecule:
     columns = _columns(frame, source, told)
     short = next((k for k, row in enumerate(frame.rows) if len(row) < columns.width), None)
     if short is not None:
-        found = len(frame.rows[short])
-        raise InputError(f"{found} words; expected a symbol and x y z", source, frame.line + short)
+        width = len(frame.rows[short])
+        raise InputError(f"{width} words; expected a symbol and x y z", source, frame.line + short)
     position = _positions(frame, columns, source)
     label = [row[columns.symbol].decode("latin-1") for row in frame.rows]
     element = _elements(label, frame.line, source, told)

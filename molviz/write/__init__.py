@@ -10,8 +10,8 @@ def _lazily(module: str, name: str) -> Callable[[Picture], bytes]:
     """Return a writer that is imported when it is first used: no run needs all the packages behind them."""
 
     def writer(picture: Picture) -> bytes:
-        found: Callable[[Picture], bytes] = getattr(import_module(f"molviz.write.{module}"), name)
-        return found(picture)
+        writer_of_module: Callable[[Picture], bytes] = getattr(import_module(f"molviz.write.{module}"), name)
+        return writer_of_module(picture)
 
     return writer
 

@@ -49,7 +49,7 @@ def on_axes(arcs: PlaneArcs) -> AxisArcs:
 
 def with_pieces(paths: Paths, owner: Ints, start: Floats, sweep: Floats) -> Paths:
     """Return the paths whose arcs are pieces of the old ones; ``owner`` (ascending) is the old row of each piece."""
-    arcs = paths.arcs.take(owner)._replace(start=start, sweep=sweep)
+    arcs = paths.arcs.split(owner, start, sweep)
     return paths._replace(arcs=arcs, loop_start=np.searchsorted(owner, paths.loop_start))
 
 
@@ -87,14 +87,14 @@ def closed_loops(paths: Paths) -> Bools:
     held, arcs = np.diff(paths.loop_start) > 0, paths.arcs
     first, last = arcs.take(paths.loop_start[:-1][held]), arcs.take(paths.loop_start[1:][held] - 1)
     closed = np.zeros(len(held), dtype=bool)
-    closed[held] = np.hypot(*(last.at(last.start + last.sweep) - first.at(first.start)).T) < THIN
+    closed[held] = np.hypot(*(last.ends() - first.starts()).T) < THIN
     return closed
 
 
 def starts_and_ends(paths: Paths) -> tuple[Floats, Floats]:
     """Return where arcs start and end (k, 2), an end inside a loop or of a closed one being exactly the next start."""
     arcs, closed = paths.arcs, closed_loops(paths)
-    start, end = arcs.at(arcs.start), arcs.at(arcs.start + arcs.sweep)
+    start, end = arcs.starts(), arcs.ends()
     following = np.arange(1, len(start) + 1)
     held = np.diff(paths.loop_start) > 0
     last = paths.loop_start[1:][held] - 1
@@ -116,9 +116,5 @@ def bezier_pieces(major: Floats, sweep: Floats) -> Ints:
 
 def bezier_handles(arcs: PlaneArcs) -> tuple[Floats, Floats]:
     """Return the two inner control points (k, 2) of the cubic for each arc: ends ± ``4/3 tan(φ/4)`` times tangent."""
-
-    def tangent(t: Floats) -> Floats:
-        return arcs.v * np.cos(t)[:, None] - arcs.u * np.sin(t)[:, None]
-
-    stop, reach = arcs.start + arcs.sweep, (4 / 3 * np.tan(arcs.sweep / 4))[:, None]
-    return arcs.at(arcs.start) + reach * tangent(arcs.start), arcs.at(stop) - reach * tangent(stop)
+    reach = (4 / 3 * np.tan(arcs.sweep / 4))[:, None]
+    return arcs.starts() + reach * arcs.tangent(arcs.start), arcs.ends() - reach * arcs.tangent(arcs.stop())

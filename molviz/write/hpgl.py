@@ -77,7 +77,7 @@ def _on_paper(paths: Paths, picture: Picture, device: Plotter) -> Paths:
 def _strokes(paths: Paths) -> list[str]:
     """One line of commands for every loop, drawn from whichever end is nearer."""
     arcs, (first, last) = paths.arcs, (paths.loop_start[:-1], paths.loop_start[1:] - 1)
-    begin, end = arcs.at(arcs.start), arcs.at(arcs.start + arcs.sweep)
+    begin, end = arcs.starts(), arcs.ends()
     forward, backward = _commands(arcs, 1.0), _commands(arcs, -1.0)
     lines = []
     for loop, reverse in drawing_order(begin[first], end[last]):

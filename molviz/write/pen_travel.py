@@ -24,8 +24,8 @@ def drawing_order(begin: Floats, end: Floats) -> Iterator[tuple[int, bool]]:
     while left:
         if len(left) <= renew_at:
             grid, renew_at = _EndGrid(ends, left), len(left) // 2
-        found = grid.nearest(pen)
-        stroke, reverse = found % len(begin), found >= len(begin)
+        chosen = grid.nearest(pen)
+        stroke, reverse = chosen % len(begin), chosen >= len(begin)
         left.remove(stroke)
         grid.remove(stroke)
         yield stroke, reverse

@@ -117,12 +117,12 @@ class Elements:
 
     def looks(self, fills: FillLayer) -> dict[Color, tuple[tuple[str, ...], dict[str, str]]]:
         """Return classes and attributes that give a shape each colour: a class for those that come often."""
-        found: dict[Color, tuple[tuple[str, ...], dict[str, str]]] = {}
+        looks: dict[Color, tuple[tuple[str, ...], dict[str, str]]] = {}
         for color, times in Counter(fills.color).items():
             look = fill_attributes(color, fills.spread)
             rule = ";".join(f"{name}:{value}" for name, value in look.items())
-            found[color] = ((self.rule(rule),), {}) if times >= OFTEN else ((), look)
-        return found
+            looks[color] = ((self.rule(rule),), {}) if times >= OFTEN else ((), look)
+        return looks
 
     def rule(self, text: str) -> str:
         """Return the class with that style rule."""

@@ -89,16 +89,14 @@ def drawn_middle(command: Commands) -> Floats:
 
 def flat(arcs: PlaneArcs) -> Bools:
     """Return which arcs (k,) run along their chords, never backwards, and hardly leave them."""
-    stop = arcs.start + arcs.sweep
-    start, middle, end = (arcs.at(t) for t in (arcs.start, arcs.start + arcs.sweep / 2, stop))
+    start, middle, end = arcs.starts(), arcs.at(arcs.middle()), arcs.ends()
     chord = end - start
     length = np.hypot(*chord.T)
     with np.errstate(divide="ignore", invalid="ignore"):
         beside = np.abs(cross(chord, middle - start)) / length
     onward = np.ones(len(length), dtype=bool)
-    for t in (arcs.start, stop):
-        tangent = (arcs.v * np.cos(t)[:, None] - arcs.u * np.sin(t)[:, None]) * np.sign(arcs.sweep)[:, None]
-        onward &= dot(tangent, chord) > 0
+    for t in (arcs.start, arcs.stop()):
+        onward &= dot(arcs.tangent(t) * np.sign(arcs.sweep)[:, None], chord) > 0
     return np.asarray((beside < FLAT) & onward & (np.abs(arcs.sweep) < np.pi))
 
 
@@ -126,7 +124,7 @@ def settled(paths: Paths) -> tuple[Paths, Bools, Commands]:
     straight |= flat(paths.arcs)
     for _ in range(CUTS):
         command, arcs = commands(paths, straight), paths.arcs
-        middle = arcs.at(arcs.start + arcs.sweep / 2)
+        middle = arcs.at(arcs.middle())
         allowed = np.where(is_half(arcs.sweep), 2 * STRAY, STRAY)  # all that is wrong with a half is its radii
         stray = (np.hypot(*(drawn_middle(command) - middle).T) > allowed) & ~straight
         if not stray.any():
