@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from molviz.cli import main
-from molviz.picture.disc_picture import DiscLook, whole_circles
+from molviz.picture.disc_picture import DiscLook
 from molviz.picture.page import Page
 from molviz.pipeline.hidden_discs import LABELS, hide_discs, picture_of, random_discs
 from tests.disc_scenes import scene_of
@@ -119,8 +119,3 @@ def test_postscript_draws_the_visible_arcs() -> None:
     pixels = np.column_stack([across + 0.5, len(dark) - down - 0.5])
     gap = np.hypot(*(pixels[:, None] - points).transpose(2, 0, 1))
     assert gap.min(axis=1).max() < 2.5 and gap.min(axis=0).max() < 1.0
-
-
-def test_before_removal_every_circle_is_whole() -> None:
-    arcs = whole_circles(4)
-    assert arcs.sweep.tolist() == [2 * math.pi] * 4 and arcs.circle.tolist() == [0, 1, 2, 3]
