@@ -25,7 +25,7 @@ def mask(loaded: Loaded, eye: ViewOptions, suffix: str, method: str) -> tuple[by
     seen = view_of(loaded, eye).of(loaded.spheres)
     low, high = bounds(seen)
     scale = SIZE / float((high - low).max())
-    look = DrawOptions(load_style("default"), "index", outline=0.0, crease=0.0, page=Page(scale=scale))
+    look = DrawOptions(load_style("flat"), "index", outline=0.0, crease=0.0, page=Page(scale=scale))
     return draw(loaded, OutputFormat(suffix), look, eye, method, False, lambda stage: None).data, seen, scale
 
 

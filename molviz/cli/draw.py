@@ -34,7 +34,7 @@ output_options = applied(
 drawing_options = applied(
     click.option("--method", type=click.Choice(["visible", "painter"]), default="visible", show_default=True),
     click.option("--check", is_flag=True, help="Verify the invariants of the visibility map first."),
-    click.option("--style", default="default", show_default=True, metavar="NAME|FILE.toml", help=f"One of {STYLES}."),
+    click.option("--style", default="flat", show_default=True, metavar="NAME|FILE.toml", help=f"One of {STYLES}."),
     click.option("--color-by", type=click.Choice([*SCHEMES, *CONTINUOUS]), default="element", show_default=True),
     click.option("--legend", is_flag=True, help="A legend for colours by bfactor or exposure."),
     eye_options,

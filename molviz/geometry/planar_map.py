@@ -58,6 +58,23 @@ def planar_map(origin: Ints, target: Ints, left: Ints, right: Ints) -> PlanarMap
     return PlanarMap(begin, following, face)
 
 
+def merged_faces(edges: PlanarMap, label: Ints) -> PlanarMap:
+    """Return the map in which neighbouring faces of one label are one face; ``label`` (2k,) is that of each half-edge.
+
+    Arcs with one label on both sides bound nothing any more; what follows a half-edge is found by turning about its end
+    past them: ``next'(h)`` is ``n = next(h)``, then ``n = next(twin(n))`` while n and its twin have one label.
+    """
+    twin = np.arange(len(label)) ^ 1
+    inner = label == label[twin]
+    following = np.where(inner, -1, edges.next)
+    turning = np.flatnonzero(~inner & (edges.next >= 0))
+    turning = turning[inner[following[turning]]]
+    while len(turning):
+        following[turning] = edges.next[twin[following[turning]]]
+        turning = turning[inner[following[turning]]]
+    return PlanarMap(edges.origin, following, np.where(inner, UNUSED, label))
+
+
 def loops(edges: PlanarMap) -> Loops:
     """Return the boundary loops of all faces, each from its smallest half-edge, ordered by face."""
     half_edge, start = cycles(edges.next)

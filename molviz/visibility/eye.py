@@ -20,6 +20,11 @@ def eye_of(view: View) -> Floats:
     return np.array([0.0, 0.0, view.distance or 0.0])
 
 
+def from_the_eye(view: View) -> View:
+    """Return the view whose eye coordinates are those of space: what is given in eye coordinates is seen as it is."""
+    return View(np.eye(3), -eye_of(view), view.distance)
+
+
 def eye_coordinates(spheres: Spheres, view: View) -> Spheres:
     """Return spheres of the molecule's space in eye coordinates."""
     turned = view.of(spheres)

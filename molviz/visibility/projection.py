@@ -10,6 +10,7 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.curves import PlaneArcs
+from molviz.model.spheres import Spheres
 from molviz.visibility.curves import Curves
 
 
@@ -29,6 +30,9 @@ class Projection(Protocol):
     def page_arcs(self, curves: Curves, curve: Ints, start: Floats, sweep: Floats) -> PlaneArcs:
         """Return the images of arcs of curves."""
 
+    def receded(self, spheres: Spheres, by: float) -> Spheres:
+        """Return the spheres farther from the eye by a length, with the same images."""
+
 
 class Parallel:
     """The eye infinitely far up the z axis."""
@@ -47,6 +51,10 @@ class Parallel:
         """Drop z."""
         center, a, b = (column[curve, :2] for column in (curves.center, curves.a, curves.b))
         return PlaneArcs(center, a, b, start, sweep)
+
+    def receded(self, spheres: Spheres, by: float) -> Spheres:
+        """Lower z."""
+        return Spheres(spheres.center - [0.0, 0.0, by], spheres.radius)
 
 
 class Central(NamedTuple):
@@ -85,6 +93,11 @@ class Central(NamedTuple):
         v = scale * x2[:, :2] / np.sqrt(1 - e**2)
         first, last = (_eccentric(angle - deepest, e[:, 0]) for angle in (start, start + sweep))
         return PlaneArcs(c, u, v, first, last - first)
+
+    def receded(self, spheres: Spheres, by: float) -> Spheres:
+        """Scale about the eye."""
+        factor = 1.0 + by / np.linalg.norm(spheres.center, axis=1)
+        return Spheres(spheres.center * factor[:, None], spheres.radius * factor)
 
 
 def _eccentric(angle: Floats, e: Floats) -> Floats:

@@ -86,6 +86,12 @@ def _pieces(prepared: Prepared, view: View) -> tuple[Pieces, Ints]:
     return painter_pieces(prepared.boundary, occluders, wanted, view, projection_of(view)), prepared.row
 
 
+def map_as_given(spheres: Spheres, view: View) -> tuple[VisibilityMap, Ints]:
+    """Return the map of spheres that are in general position, and their rows; raises ``Degenerate`` if they are not."""
+    keep = _possibly_visible(spheres, view)
+    return _map(Prepared(union_boundary(spheres.take(keep)), keep), view)
+
+
 def extent(spheres: Spheres, view: View) -> tuple[Floats, Floats]:
     """Return the corners (2,), (2,) of the bounding box of all spheres' images on the page, in ångström.
 

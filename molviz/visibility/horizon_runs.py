@@ -1,0 +1,91 @@
+"""Visible horizons as unbroken runs, sampled along their way: how far behind each point the next surface lies."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from molviz.arrays import Bools, Floats, Ints
+from molviz.curves import PlaneArcs
+from molviz.geometry.rows import expand, offsets
+from molviz.visibility.curves import HORIZON
+from molviz.visibility.eye import occluders_of
+from molviz.visibility.map import BACKGROUND, VisibilityMap
+from molviz.visibility.view import View
+
+SPACING = 0.2  # ångström between samples
+
+
+class HorizonRuns(NamedTuple):
+    """m runs of consecutive arcs of one horizon each, counter-clockwise about the sphere; ångström on the page."""
+
+    sphere: Ints  # (m,) whose horizon it is
+    arcs: PlaneArcs  # (m,) the whole runs
+    closed: Bools  # (m,) whole turns
+    before: Ints  # (m,) the nearer sphere under whose horizon the run comes out at its start, −1 if none
+    after: Ints  # (m,) the same at its end
+    start: Ints  # (m + 1,) CSR offsets of the samples
+    t: Floats  # (s,) parameters of the samples, equally spaced, both ends included
+    behind: Ints  # (s,) the sphere seen just outside each sample, or BACKGROUND
+    jump: Floats  # (s,) ångström from the horizon to the surface there, infinite before the background
+
+    def owner(self) -> Ints:
+        """Return the run of each sample (s,)."""
+        return np.repeat(np.arange(len(self.sphere)), np.diff(self.start))
+
+    def length(self) -> Floats:
+        """Return the lengths (m,) in ångström, those of the circles about the images."""
+        return self.arcs.sweep * self.arcs.major()
+
+
+def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
+    """Return the visible horizons of a map, each as long as nothing hides it, and what lies behind them."""
+    curve_arcs = view_map.curve_arcs
+    row = np.flatnonzero(view_map.curves.kind[curve_arcs.curve] == HORIZON)
+    curve, origin, target = (column[row] for column in (curve_arcs.curve, curve_arcs.origin, curve_arcs.target))
+    begins = np.append(True, (curve[1:] != curve[:-1]) | (origin[1:] != target[:-1]))[: len(row)]
+    first = np.flatnonzero(begins)
+    last = np.append(first[1:], len(row))[: len(first)] - 1
+    arcs = view_map.arcs.take(row[first])
+    arcs = arcs._replace(sweep=np.add.reduceat(view_map.arcs.sweep[row], first) if len(first) else arcs.sweep)
+    sphere = view_map.curves.first[curve]
+    closed = origin[first] == target[last]
+    before = _other_at(target, sphere, origin[first], sphere[first])
+    after = _other_at(origin, sphere, target[last], sphere[first])
+    count = np.maximum(np.ceil(arcs.sweep * arcs.major() / SPACING).astype(np.int64), 2) + 1
+    start = offsets(np.repeat(np.arange(len(first)), count), len(first))
+    owner, place = expand(np.zeros_like(count), count)
+    offset = arcs.sweep[owner] * place / (count[owner] - 1)
+    behind = _behind_at(view_map, row, first, last, owner, offset)
+    t = arcs.start[owner] + offset
+    page = arcs.take(owner).at(t)
+    jump = _jumps(view_map, view, sphere[first][owner], behind, page)
+    return HorizonRuns(sphere[first], arcs, closed, before, after, start, t, behind, jump)
+
+
+def _other_at(end: Ints, sphere: Ints, vertex: Ints, own: Ints) -> Ints:
+    """The sphere other than ``own`` a horizon arc of which has the given vertex at its ``end``, −1 where none has."""
+    order = np.argsort(end, kind="stable")
+    begin = np.searchsorted(end[order], vertex)
+    stop = np.searchsorted(end[order], vertex, side="right")
+    row, entry = expand(begin, stop)
+    there = sphere[order[entry]]
+    other = np.full(len(vertex), -1)
+    rows = np.flatnonzero(there != own[row])
+    other[row[rows]] = there[rows]
+    return other
+
+
+def _behind_at(view_map: VisibilityMap, row: Ints, first: Ints, last: Ints, owner: Ints, offset: Floats) -> Ints:
+    """The face on the right of the arc of its run on which each sample lies."""
+    reached = np.cumsum(view_map.arcs.sweep[row])
+    begin = reached[first] - view_map.arcs.sweep[row[first]]
+    place = np.searchsorted(reached, begin[owner] + offset)
+    return view_map.right[row[np.clip(place, first[owner], last[owner])]]
+
+
+def _jumps(view_map: VisibilityMap, view: View, own: Ints, behind: Ints, page: Floats) -> Floats:
+    occluders = occluders_of(view_map.spheres, view)
+    surface = occluders.surface(np.maximum(behind, 0), page)
+    jump = np.maximum(occluders.nearness()[own] - surface, 0.0)  # rounding beside a silhouette of the surface: −∞
+    own_radius = view_map.spheres.radius[own]
+    return np.where(behind == BACKGROUND, np.inf, np.where(np.isfinite(jump), jump, own_radius))

@@ -1,0 +1,78 @@
+"""Copies of spheres laid over a map: what of them is seen marks parts of the surfaces, exactly, by a second map.
+
+A copy that is enlarged and lowered away from the eye is a skirt hung from its sphere: it is seen where the surface lies
+deeper than the skirt, near the edges of whatever stands before something far behind. A copy that is moved a little away
+from a light and grown as little is seen on the side of its sphere that the light does not reach.
+"""
+
+import numpy as np
+
+from molviz.arrays import Bools, Floats, Ints
+from molviz.geometry.general_position import Degenerate
+from molviz.geometry.grid import neighbours
+from molviz.geometry.planar_map import Loops, loops, merged_faces
+from molviz.geometry.rows import expand
+from molviz.model.spheres import Spheres
+from molviz.visibility.eye import from_the_eye, projection_of
+from molviz.visibility.map import BACKGROUND, VisibilityMap
+from molviz.visibility.scene import Scene, map_as_given
+from molviz.visibility.view import View
+
+MOVED = 0.02  # of a radius: how far a copy that marks a side of its sphere is moved
+
+
+def seen_spheres(view_map: VisibilityMap) -> Ints:
+    """Return the spheres that have a face, ascending."""
+    faces = np.unique(view_map.loops.face)
+    return np.asarray(faces[faces != BACKGROUND])
+
+
+def seen_of_copies(spheres: Spheres, copies: Spheres, view: View) -> tuple[VisibilityMap, Loops]:
+    """Return the map of spheres with copies among them, and the loops of the region in which a copy is seen.
+
+    Both in eye coordinates of the view. Loops of face 1 bound the region of all copies.
+    """
+    both = Spheres(*(np.concatenate(columns) for columns in zip(spheres, copies, strict=True)))
+    eye_view = from_the_eye(view)
+    try:
+        view_map, row = map_as_given(both, eye_view)
+    except Degenerate:
+        view_map, row = Scene(both, only=eye_view).map(eye_view)
+    is_copy = np.append(row >= len(spheres.radius), False).astype(np.int64)  # the last one stands for the background
+    region = loops(merged_faces(view_map.edges, is_copy[view_map.edges.face]))
+    return view_map, region
+
+
+def skirts(spheres: Spheres, rows: Ints, reach: float, low: float, view: View) -> Spheres:
+    """Return copies of the given spheres, larger by ``reach`` and farther from the eye by ``low`` ångström."""
+    enlarged = Spheres(spheres.center[rows], spheres.radius[rows] + reach)
+    return projection_of(view).receded(enlarged, low)
+
+
+def drop_at_rim(radius: Floats, reach: float, low: float) -> Floats:
+    """Return how deep below its sphere's horizon a skirt meets the line of sight past it: ``low − √(2 r R + R²)``."""
+    return low - np.sqrt(2 * radius * reach + reach**2)
+
+
+def shaded_sides(spheres: Spheres, light: Floats, cosine: float) -> Spheres:
+    """Return copies that are seen where the normal's cosine to the unit vector ``light`` is below ``cosine``.
+
+    Moved by ε away from the light and with ``r'² = r² + ε² + 2 ε r cosine``, a copy contains the points of its sphere
+    with ``n · light < cosine``.
+    """
+    moved = MOVED * spheres.radius
+    radius = np.sqrt(spheres.radius**2 + moved**2 + 2 * moved * spheres.radius * cosine)
+    return Spheres(spheres.center - moved[:, None] * light, radius)
+
+
+def on_ledges(page: Floats, height: Floats, wanted: Ints, within: float, below: Floats, least: int) -> Bools:
+    """Tell of which wanted spheres at least ``least`` others lie within a distance on the page and higher than below.
+
+    ``page`` (n, 2) are the images of the centres, ``height`` (n,) how near they are, ``below`` one height per wanted
+    sphere. Lone tips, which are not part of a surface, have none.
+    """
+    flat = np.column_stack([page, np.zeros(len(page))])
+    near = neighbours(Spheres(flat, np.full(len(page), within / 2)))
+    row, entry = expand(near.start[wanted], near.start[wanted + 1])
+    higher = height[near.item[entry]] > below[row]
+    return np.asarray(np.bincount(row[higher], minlength=len(wanted)) >= least)
