@@ -6,6 +6,7 @@ from typing import Any
 
 from molviz import toml
 from molviz.errors import InputError
+from molviz.picture.colors import parse_color
 from molviz.picture.picture import Color
 
 FOLDER = Path(__file__).parent / "styles"
@@ -63,13 +64,3 @@ def _style(table: dict[str, Any]) -> Style:
         chain=tuple(parse_color(text) for text in colors["chain"]),
         ramp=tuple(parse_color(text) for text in colors["ramp"]),
     )
-
-
-def parse_color(text: str) -> Color:
-    """Return the colour of ``#rgb``, ``#rrggbb`` or one of a few names; raises ValueError for anything else."""
-    named = {"white": "#fff", "black": "#000", "grey": "#808080", "gray": "#808080"}.get(text.lower(), text)
-    digits = named.removeprefix("#")
-    if named.startswith("#") and len(digits) in (3, 6):
-        wide = digits if len(digits) == 6 else "".join(2 * digit for digit in digits)
-        return int(wide[0:2], 16), int(wide[2:4], 16), int(wide[4:6], 16)
-    raise ValueError(f"{text!r} is not a colour; expected #rgb, #rrggbb, white, black or grey")
