@@ -1,13 +1,20 @@
 """One colour per atom, by what the user asks about."""
 
 from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats, Strings
+from molviz.arrays import Floats, Ints, Strings
+from molviz.model.entities import WATER, Entities, entities_of, is_metal
 from molviz.model.molecule import Molecule
+from molviz.picture.oklab import colors_of
+from molviz.picture.palette import DEFAULT, Palette, load_palette
 from molviz.picture.picture import Color
 from molviz.picture.style import Style
+from molviz.picture.tints import tinted
+
+CARBON_TONE = ("C", "H", "D")  # elements in an entity's carbon tone; all others are in its hetero tone
 
 
 def by_element(molecule: Molecule, style: Style) -> list[Color]:
@@ -26,6 +33,13 @@ def by_chain(molecule: Molecule, style: Style) -> list[Color]:
     return [style.chain[number[name] % len(style.chain)] for name in molecule.chain.tolist()]
 
 
+def by_entity(molecule: Molecule, style: Style) -> list[Color]:
+    """The default palette's tones of each entity, whatever the style, and no tints."""
+    entities = entities_of(molecule)
+    tint = np.zeros(len(entities.chain), dtype=np.int64)
+    return colors_of(entity_colors(molecule, entities, load_palette(DEFAULT), tint).fill)
+
+
 def by_index(molecule: Molecule, style: Style) -> list[Color]:
     """Atom k has the colour whose RGB value is k + 1, exactly: a picking mask."""
     return [(k >> 16 & 255, k >> 8 & 255, k & 255) for k in range(1, len(molecule) + 1)]
@@ -34,6 +48,7 @@ def by_index(molecule: Molecule, style: Style) -> list[Color]:
 SCHEMES: dict[str, Callable[[Molecule, Style], Sequence[Color]]] = {
     "element": by_element,
     "chain": by_chain,
+    "entity": by_entity,
     "residue": by_residue,
     "index": by_index,
 }
@@ -46,6 +61,44 @@ CONTINUOUS = {  # schemes that colour by a number per atom, and what their legen
 def atom_colors(scheme: str, molecule: Molecule, values: Floats, style: Style) -> Sequence[Color]:
     """Return the colour of each atom; ``values`` (n,) are the numbers of a continuous scheme."""
     return on_ramp(values, style.ramp, style.unknown) if scheme in CONTINUOUS else SCHEMES[scheme](molecule, style)
+
+
+class EntityColors(NamedTuple):
+    """What an atom is filled with, and its entity's inner lines and contact shade: sRGB, 0 to 255."""
+
+    fill: Ints  # (n, 3)
+    ink: Ints  # (n, 3)
+    shade: Ints  # (n, 3)
+
+
+def entity_colors(molecule: Molecule, entities: Entities, palette: Palette, tint: Ints) -> EntityColors:
+    """Return the colours of n atoms by entity; ``tint`` (p,) is that of each polymer chain, 0 for none.
+
+    Polymers have the tones of their entity (the palette's rows in turn), everything else those of ligands; metals
+    outside of polymers have their own colour, and water that of the haze with plain ink.
+    """
+    tones = [*palette.entity, palette.ligand]
+    other, water, outside = len(palette.entity), entities.kind == WATER, entities.polymer < 0
+    row = np.where(outside, other, entities.entity % other)
+    tint_of_atom = np.where(outside, 0, np.append(tint, 0)[entities.polymer])
+    hetero = np.where(np.isin(molecule.element, CARBON_TONE), 0, 1)
+    fills = np.array([tinted(one, palette.tint) for one in tones])
+    fill = fills[row, tint_of_atom, hetero]
+    fill[outside & is_metal(molecule)] = palette.metal
+    fill[water] = palette.haze
+    ink, shade = np.array([one.ink for one in tones])[row], np.array([one.shade for one in tones])[row]
+    ink[water] = shade[water] = palette.ink
+    return EntityColors(fill, ink, shade)
+
+
+def chain_colors(chain: Strings, palette: Palette) -> Ints:
+    """Return the palette's chain colours (n, 3) in turn, in the order in which chains appear.
+
+    They repeat where there are more chains than colours: ``palette.repeats`` tells.
+    """
+    number = order_of_appearance(chain)
+    places = np.array([number[name] for name in chain.tolist()], dtype=np.int64)
+    return np.array(palette.chain)[places % len(palette.chain)]
 
 
 def order_of_appearance(names: Strings) -> dict[str, int]:
