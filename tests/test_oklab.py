@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from molviz.picture.colors import css_colors, parse_color
-from molviz.picture.oklab import colors_of, from_oklab, lighter, lightness, mix, shaded, to_oklab, turned
+from molviz.picture.oklab import colors_of, from_oklab, lighter, lightness, mix, shaded, to_oklab, turn_between, turned
 from molviz.picture.picture import Color
 
 BYTE = st.integers(0, 255)
@@ -77,6 +77,13 @@ def test_turning_keeps_lightness_and_comes_back() -> None:
     assert np.abs(to_oklab(turned(pastel, 120.0))[:, 0] - to_oklab(pastel)[:, 0]).max() < 0.005
     before, after = to_oklab((200, 120, 120)), to_oklab(turned((200, 120, 120), 90.0))
     assert np.allclose(after, (before[0], -before[2], before[1]), atol=0.003)
+
+
+def test_turns_are_measured() -> None:
+    start = np.array([(200, 120, 120)] * 5)
+    asked = np.array([-170.0, -20.0, 0.0, 20.0, 100.0])
+    assert np.allclose(turn_between(start, turned(start, asked)), asked, atol=2.0)
+    assert turn_between((90, 90, 90), (200, 30, 30)) == 0 == turn_between((200, 30, 30), (90, 90, 90))
 
 
 @given(COLORS, COLORS, st.floats(0, 40))

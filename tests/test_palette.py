@@ -1,5 +1,6 @@
 """Palettes keep what they promise, and say what is wrong with a user's own."""
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ from molviz.arrays import Floats, Ints
 from molviz.errors import InputError
 from molviz.picture.oklab import colors_of, lightness, mix, shaded, to_oklab
 from molviz.picture.palette import FOLDER, KEYS, PALETTES, TONES, Palette, load_palette
+from molviz.picture.tints import tinted
 from tests.color_vision import VISIONS, distances
 
 VISION = pytest.mark.parametrize("vision", VISIONS)
@@ -48,6 +50,13 @@ def test_entities_stay_apart_in_grey(name: str, least: float) -> None:
     across = np.minimum(between(np.abs(carbon[:, None] - hetero)), between(np.abs(hetero[:, None] - hetero)))
     assert apart.min() >= least
     assert np.abs(carbon - hetero).max() < across.min()
+
+
+@pytest.mark.parametrize(("name", "tints", "least"), [("safe", 2, 6.8), ("safe", 3, 4.6), ("grey", 2, 6.7)])
+def test_tints_leave_entities_apart_in_grey(name: str, tints: int, least: float) -> None:
+    palette = load_palette(name)
+    light = [lightness(tinted(row, palette.tint)[:tints, 0]) for row in palette.entity]
+    assert min(np.abs(one[:, None] - other).min() for one, other in itertools.combinations(light, 2)) >= least
 
 
 @pytest.mark.parametrize("name", ["tide", "clay"])

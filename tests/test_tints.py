@@ -1,4 +1,4 @@
-"""Copies that touch are told apart, the nearer one by the darker tint."""
+"""Copies that touch are told apart, and the nearest have the plain colours."""
 
 import itertools
 
@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from molviz.picture.oklab import lightness
+from molviz.picture.oklab import lightness, turn_between
 from molviz.picture.palette import PALETTES, load_palette
 from molviz.picture.tints import COUNT, entity_tints, shifts, tinted
 
@@ -27,10 +27,11 @@ def carbon_lightness(entity: int, tint: int) -> float:
 
 
 def test_haemoglobin() -> None:
-    """Two pairs of copies, all touching: copies differ, the nearer is darker."""
+    """Two pairs of copies, all touching: copies differ, the rear is lighter."""
     contacts = [(a, b, 1.0) for a, b in itertools.combinations(range(4), 2)]
     alpha, beta, other_alpha, other_beta = tints([0, 1, 0, 1], contacts, [3.0, -1.0, 1.0, 2.0])
     assert carbon_lightness(0, other_alpha) - carbon_lightness(0, alpha) >= 8
+    assert (alpha, other_beta) == (0, 0)
     assert carbon_lightness(1, beta) - carbon_lightness(1, other_beta) >= 8
 
 
@@ -53,7 +54,7 @@ def test_a_ring_of_seven_needs_three() -> None:
 
 @given(
     st.lists(st.integers(0, 7), min_size=1, max_size=12),
-    st.lists(st.tuples(st.integers(-1, 11), st.integers(-1, 11), st.floats(0.1, 50)), max_size=30),
+    st.lists(st.tuples(st.integers(-1, 11), st.integers(-1, 11), st.floats(1.0, 1.5)), max_size=30),
 )
 def test_any_contacts(entity: list[int], contacts: list[tuple[int, int, float]]) -> None:
     """With fewer than four neighbours alike, no two share a tint; order and direction of contacts do not matter."""
@@ -73,8 +74,22 @@ def test_any_contacts(entity: list[int], contacts: list[tuple[int, int, float]])
         assert tints(entity, turned, near) == chosen
 
 
+def test_a_touch_that_nobody_sees_needs_no_tint() -> None:
+    assert tints([0] * 3, [(0, 1, 10.0), (1, 2, 10.0), (0, 2, 0.1)], [2.0, 1.0, 2.0]) == [0, 1, 0]
+    assert len(set(tints([0] * 3, [(0, 1, 10.0), (1, 2, 10.0), (0, 2, 0.5)], [2.0, 1.0, 2.0]))) == 3
+
+
+def test_two_colours_do_for_a_crown() -> None:
+    """Six against six, each touching all but its opposite: greedy by number would need a tint for every pair."""
+    crown = [(a, 6 + b, 1.0) for a in range(6) for b in range(6) if a != b]
+    order = [number // 2 + 6 * (number % 2) for number in range(12)]
+    renamed = [(order.index(a), order.index(b), weight) for a, b, weight in crown]
+    chosen = tints([0] * 12, renamed, [0.0] * 12)
+    assert len(set(chosen)) == 2 and all(chosen[a] != chosen[b] for a, b, _ in renamed)
+
+
 def test_of_five_that_all_touch_the_least_border_is_given_up() -> None:
-    contacts = [(a, b, 10.0) for a, b in itertools.combinations(range(5), 2) if (a, b) != (1, 3)] + [(1, 3, 0.1)]
+    contacts = [(a, b, 10.0) for a, b in itertools.combinations(range(5), 2) if (a, b) != (1, 3)] + [(1, 3, 1.0)]
     chosen = tints([0] * 5, contacts, [0.0] * 5)
     assert [(a, b) for a, b in itertools.combinations(range(5), 2) if chosen[a] == chosen[b]] == [(1, 3)]
 
@@ -86,9 +101,16 @@ def test_tints_lie_so_far_apart_as_the_palette_says(name: str) -> None:
         table = tinted(row, palette.tint)
         assert np.array_equal(table[0], [row.carbon, row.hetero])
         light = np.sort(lightness(table), axis=0)
-        assert np.diff(light, axis=0).min() > palette.tint - 1.0
+        assert np.diff(light, axis=0).min() > palette.tint - 0.8
         assert light.max() < 96
     assert np.array_equal(shifts(palette.entity[0].carbon, 0.0), np.zeros(COUNT))
+
+
+def test_dark_tints_turn_towards_the_shade() -> None:
+    for row in TIDE.entity:
+        turns = turn_between([row.carbon] * COUNT, tinted(row, TIDE.tint)[:, 0]) * turn_between(row.carbon, row.shade)
+        darker = shifts(row.carbon, TIDE.tint) < 0
+        assert (turns[darker] > 0).all() and (turns[~darker][1:] < 0).all()
 
 
 def test_four_copies_differ_by_eight_in_the_default_palette() -> None:

@@ -30,6 +30,7 @@ _OPPONENTS = np.array(  # rows lightness, green to red, blue to yellow of the co
     ]
 )
 _FROM_CONES, _FROM_OPPONENTS = np.linalg.inv(_CONES), np.linalg.inv(_OPPONENTS)
+_GREY = 1e-3  # chroma: far below one step of 8 bits
 _HALVINGS = 10  # of an interval of 1: finer than 8 bits
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # Y of linear sRGB
 
@@ -117,6 +118,15 @@ def turned(color: Colors, degrees: float | Floats) -> Ints:
     chroma, hue = np.hypot(lab[..., 1], lab[..., 2]), np.arctan2(lab[..., 2], lab[..., 1])
     columns = np.broadcast_arrays(lab[..., 0], chroma * np.cos(hue + angle), chroma * np.sin(hue + angle))
     return from_oklab(np.stack(columns, axis=-1))
+
+
+def turn_between(one: Colors, other: Colors) -> Floats:
+    """Return by how many degrees (...), −180 to 180, the hue of one turns to that of the other; 0 for greys."""
+    (_, red, yellow), (_, to_red, to_yellow) = np.moveaxis(to_oklab(one), -1, 0), np.moveaxis(to_oklab(other), -1, 0)
+    across, along = red * to_yellow - yellow * to_red, red * to_red + yellow * to_yellow
+    grey = np.hypot(across, along) < _GREY**2
+    degrees: Floats = np.where(grey, 0.0, np.degrees(np.arctan2(across, along)))
+    return degrees
 
 
 def colors_of(rows: Ints) -> list[Color]:
