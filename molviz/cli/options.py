@@ -9,9 +9,9 @@ import click
 
 from molviz.errors import InputError
 from molviz.model.radii import DEFAULT
+from molviz.picture.colors import parse_color
 from molviz.picture.page import PAPER, parse_length
 from molviz.picture.picture import Color
-from molviz.picture.style import parse_color
 from molviz.pipeline.inputs import FORMATS, InputOptions, Loaded, load
 
 Decorator: TypeAlias = Callable[[Callable[..., Any]], Any]

@@ -1,51 +1,112 @@
 """One colour per atom, by what the user asks about."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats, Strings
+from molviz.arrays import Floats, Ints, Strings
+from molviz.model.entities import WATER, Entities, is_metal
 from molviz.model.molecule import Molecule
+from molviz.picture.oklab import mix
+from molviz.picture.palette import Palette
 from molviz.picture.picture import Color
 from molviz.picture.style import Style
+from molviz.picture.tints import tinted
+
+CARBON_TONE = ("C", "H", "D")  # elements in an entity's carbon tone; all others are in its hetero tone
 
 
-def by_element(molecule: Molecule, style: Style) -> list[Color]:
-    """The style's colour of each element."""
-    return [style.element.get(symbol, style.unknown) for symbol in molecule.element.tolist()]
-
-
-def by_residue(molecule: Molecule, style: Style) -> list[Color]:
-    """The style's colour of each residue name."""
-    return [style.residue.get(name, style.unknown) for name in molecule.residue_name.tolist()]
-
-
-def by_chain(molecule: Molecule, style: Style) -> list[Color]:
-    """The style's chain colours in turn, in the order in which chains appear."""
-    number = order_of_appearance(molecule.chain)
-    return [style.chain[number[name] % len(style.chain)] for name in molecule.chain.tolist()]
-
-
-def by_index(molecule: Molecule, style: Style) -> list[Color]:
-    """Atom k has the colour whose RGB value is k + 1, exactly: a picking mask."""
-    return [(k >> 16 & 255, k >> 8 & 255, k & 255) for k in range(1, len(molecule) + 1)]
-
-
-SCHEMES: dict[str, Callable[[Molecule, Style], Sequence[Color]]] = {
-    "element": by_element,
-    "chain": by_chain,
-    "residue": by_residue,
-    "index": by_index,
-}
+DISCRETE = ("element", "chain", "entity", "residue", "index")
 CONTINUOUS = {  # schemes that colour by a number per atom, and what their legends say
     "bfactor": "B factor, Å²",
     "exposure": "exposed area, Å²",
 }
+DARKER_INK = 0.8  # share of the palette's ink in the inner lines of colours that have none of their own
+DARKER_SHADE = 0.7  # the same for their shade
 
 
-def atom_colors(scheme: str, molecule: Molecule, values: Floats, style: Style) -> Sequence[Color]:
-    """Return the colour of each atom; ``values`` (n,) are the numbers of a continuous scheme."""
-    return on_ramp(values, style.ramp, style.unknown) if scheme in CONTINUOUS else SCHEMES[scheme](molecule, style)
+class ColorSubject(NamedTuple):
+    """What is to be coloured: a molecule, what its atoms belong to, and what a continuous scheme tells of them."""
+
+    molecule: Molecule
+    entities: Entities
+    values: Floats  # (n,) NaN unless the scheme is continuous
+
+
+class AtomColors(NamedTuple):
+    """What an atom is filled with, and the inner lines and contact shade of what it belongs to: sRGB, 0 to 255."""
+
+    fill: Ints  # (n, 3)
+    ink: Ints  # (n, 3)
+    shade: Ints  # (n, 3)
+
+    def take(self, rows: Ints) -> "AtomColors":
+        """Return the colours of the given atoms."""
+        return AtomColors(self.fill[rows], self.ink[rows], self.shade[rows])
+
+
+def atom_colors(scheme: str, subject: ColorSubject, style: Style, palette: Palette, tint: Ints) -> AtomColors:
+    """Return the colours of n atoms; ``tint`` (p,) is that of each polymer chain in the scheme ``entity``."""
+    molecule = subject.molecule
+    if scheme == "entity":
+        return entity_colors(molecule, subject.entities, palette, tint)
+    if scheme == "index":
+        fill = by_index(len(molecule))
+    elif scheme in CONTINUOUS:
+        fill = np.array(on_ramp(subject.values, style.colors.ramp, style.colors.unknown))
+    elif scheme == "chain":
+        fill = chain_colors(molecule.chain, palette)
+    else:
+        table, names = (
+            (style.colors.element, molecule.element) if scheme == "element" else
+            (style.colors.residue, molecule.residue_name)
+        )  # fmt: skip
+        fill = np.array([table.get(name, style.colors.unknown) for name in names.tolist()])
+    return with_own_darks(fill, palette)
+
+
+def with_own_darks(fill: Ints, palette: Palette) -> AtomColors:
+    """Return colours with inks and shades made of them and the palette's ink."""
+    distinct, number = np.unique(fill, axis=0, return_inverse=True)
+    ink, shade = (mix(distinct, palette.ink, share)[number.ravel()] for share in (DARKER_INK, DARKER_SHADE))
+    return AtomColors(fill, ink, shade)
+
+
+def by_index(count: int) -> Ints:
+    """Return for atom k the colour whose RGB value is k + 1, exactly: a picking mask."""
+    number = np.arange(1, count + 1)
+    return np.stack([number >> 16 & 255, number >> 8 & 255, number & 255], axis=1)
+
+
+def entity_colors(molecule: Molecule, entities: Entities, palette: Palette, tint: Ints) -> AtomColors:
+    """Return the colours of n atoms by entity; ``tint`` (p,) is that of each polymer chain, 0 for none.
+
+    Polymers have the tones of their entity (the palette's rows in turn), everything else those of ligands; metals
+    outside of polymers have their own colour, and water that of the haze with plain ink.
+    """
+    tones = [*palette.entity, palette.ligand]
+    other, water, outside = len(palette.entity), entities.kind == WATER, entities.polymer < 0
+    row = np.where(outside, other, entities.entity % other)
+    tint_of_atom = np.where(outside, 0, np.append(tint, 0)[entities.polymer])
+    hetero = np.where(np.isin(molecule.element, CARBON_TONE), 0, 1)
+    fills = np.array([tinted(one, palette.tint) for one in tones])
+    fill = fills[row, tint_of_atom, hetero]
+    fill[outside & is_metal(molecule)] = palette.metal
+    fill[water] = palette.haze
+    ink, shade = np.array([one.ink for one in tones])[row], np.array([one.shade for one in tones])[row]
+    ink[water] = shade[water] = palette.ink
+    return AtomColors(fill, ink, shade)
+
+
+def chain_colors(chain: Strings, palette: Palette) -> Ints:
+    """Return the palette's chain colours (n, 3) in turn, in the order in which chains appear.
+
+    They repeat where there are more chains than colours: ``palette.repeats`` tells.
+    """
+    number = order_of_appearance(chain)
+    places = np.array([number[name] for name in chain.tolist()], dtype=np.int64)
+    return np.array(palette.chain)[places % len(palette.chain)]
 
 
 def order_of_appearance(names: Strings) -> dict[str, int]:

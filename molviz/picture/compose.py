@@ -1,25 +1,58 @@
-"""Geometry becomes a picture: what lines are comes in, what they look like is decided here."""
+"""Geometry becomes a picture: what things are comes in, what they look like is decided here, layer by layer."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths, PlaneArcs
 from molviz.geometry.planar_map import Loops
-from molviz.geometry.rows import lists_taken, offsets
+from molviz.geometry.rows import offsets
+from molviz.model.entities import Entities, entities_of
 from molviz.model.molecule import Molecule
-from molviz.picture.chains import Chains, linked, merged
-from molviz.picture.coloring import CONTINUOUS, atom_colors, order_of_appearance
+from molviz.picture.chains import linked, merged
+from molviz.picture.coloring import CONTINUOUS, AtomColors, ColorSubject, atom_colors, order_of_appearance
+from molviz.picture.ink import in_colors, line_widths, outlined, strokes_of
 from molviz.picture.legend import WIDTH as LEGEND_WIDTH
 from molviz.picture.legend import legend
-from molviz.picture.marks import marks
+from molviz.picture.looks import (
+    NEARER_BY,
+    Looks,
+    borders,
+    distances,
+    fogged,
+    groups,
+    nearness,
+    tone_names,
+)
+from molviz.picture.marks import marks, region_mark
+from molviz.picture.oklab import mix
 from molviz.picture.page import Page, Placement, place
-from molviz.picture.picture import SPREAD, Color, FillLayer, Layer, Picture, StackedLayer, StrokeLayer
+from molviz.picture.palette import Palette
+from molviz.picture.picture import (
+    SPREAD,
+    Color,
+    FillLayer,
+    Layer,
+    Picture,
+    ShadeLayer,
+    StackedLayer,
+    StrokeLayer,
+)
+from molviz.picture.regions import Regions, closed_chains, merged_regions, shapes_of
+from molviz.picture.shading import contact_steps, light_bands
 from molviz.picture.style import Style
+from molviz.picture.tints import entity_tints
+from molviz.visibility.horizon_runs import HorizonRuns, horizon_runs
 from molviz.visibility.lines import CREASE, OUTLINE, ROLES, SILHOUETTE, line_roles, slivers
 from molviz.visibility.map import BACKGROUND, VisibilityMap
+from molviz.visibility.overlay import seen_spheres
 from molviz.visibility.painter import Pieces
+from molviz.visibility.view import View
+
+INK_CLASSES = 3  # of distance, in which ink takes on the haze
+INK_FOG = 0.25  # of the fog's strength that the ink of the farthest class takes on
 
 
 @dataclass(frozen=True)
@@ -27,13 +60,20 @@ class DrawOptions:
     """How the user wants a picture; widths in points, None for the style's."""
 
     style: Style
+    palette: Palette
     color_by: str = "element"
-    fill: str = "flat"
+    fill: str | None = None
+    parts: str | None = None
     outline: float | None = None
     crease: float | None = None
     background: Color | None = None
     page: Page = Page()
     legend: bool = False
+
+    @property
+    def is_mask(self) -> bool:
+        """Whether colours are names of atoms, which nothing may change."""
+        return self.color_by == "index"
 
 
 @dataclass(frozen=True)
@@ -45,38 +85,205 @@ class Subject:
     low: Floats  # (2,) ångström, of the bounding box of all images
     high: Floats  # (2,)
     values: Floats  # (n,) per atom, what a continuous scheme colours by
+    overrides: tuple[tuple[Bools, Color], ...] = ()  # atoms (n,) that have a colour of their own, the last one wins
+
+    @cached_property
+    def entities(self) -> Entities:
+        """What each atom belongs to."""
+        return entities_of(self.molecule)
+
+    @property
+    def seen_molecule(self) -> Molecule:
+        """The atoms of the spheres, in their order."""
+        return self.molecule.take(self.atom)
+
+    def colors(self, options: DrawOptions, tint: Ints) -> AtomColors:
+        """Return the colours of all atoms."""
+        about = ColorSubject(self.molecule, self.entities, self.values)
+        colors = atom_colors(options.color_by, about, options.style, options.palette, tint)
+        for atoms, color in self.overrides:
+            colors = colors.painted(atoms, color, options.palette)
+        return colors
 
 
-def picture_of_map(view_map: VisibilityMap, subject: Subject, options: DrawOptions) -> Picture:
+class MapComposer:
+    """Makes the layers of the drawing of one visibility map."""
+
+    def __init__(self, view_map: VisibilityMap, view: View, subject: Subject, options: DrawOptions) -> None:
+        self.map, self.view, self.subject, self.options, self.style = view_map, view, subject, options, options.style
+        self.placement, self.widths = placement_of(subject, options)
+        self.scale = self.placement.scale
+        self.arcs: PlaneArcs = view_map.arcs.moved(self.placement.scale, self.placement.shift)
+        self.sliver = slivers(view_map)
+        self.fill = options.fill or self.style.fill
+
+    def layers(self) -> list[Layer]:
+        """Return all layers in painting order: regions, shade, light, lines."""
+        layers: list[Layer] = []
+        if self.fill != "none":
+            layers += [self.regions(), *self.shade(), *self.light()]
+        return [*layers, *self.edges(), *self.ink()]
+
+    @cached_property
+    def seen(self) -> Ints:
+        """The spheres that are seen."""
+        return seen_spheres(self.map)
+
+    @cached_property
+    def runs(self) -> HorizonRuns:
+        """The visible horizons."""
+        return horizon_runs(self.map, self.view)
+
+    @cached_property
+    def haze(self) -> Color:
+        """What far things fade to."""
+        return self.options.background or self.options.palette.haze
+
+    @cached_property
+    def looks(self) -> Looks:
+        """The colours of each sphere."""
+        tint = self.tints() if self.options.color_by == "entity" else np.empty(0, dtype=np.int64)
+        colors = self.subject.colors(self.options, tint).take(self.subject.atom)
+        group = groups(self.subject.molecule, self.subject.entities)[self.subject.atom]
+        if self.options.is_mask:
+            return Looks(*colors, group, np.zeros(len(group)))
+        far = distances(self.map, self.view, self.seen, NEARER_BY)
+        fill = fogged(colors.fill, far, self.style.fog, self.haze)
+        return Looks(fill, colors.ink, colors.shade, group, distances(self.map, self.view, self.seen))
+
+    def tints(self) -> Ints:
+        """Return the tints of polymer chains, so that copies of an entity that touch on the page differ."""
+        entities = self.subject.entities
+        polymer = entities.polymer[self.subject.atom]
+        near, known = nearness(self.map, self.view), polymer >= 0
+        count = len(entities.chain)
+        mean = np.bincount(polymer[known], near[known], count) / np.maximum(np.bincount(polymer[known], None, count), 1)
+        one, other, length = borders(self.map, polymer)
+        return entity_tints(entities.chain_entity, self.options.palette, one, other, length, mean)
+
+    def regions(self) -> FillLayer:
+        """Return the fills."""
+        if self.options.is_mask or (self.options.parts or self.style.parts) == "atoms":
+            return self.atoms()
+        regions, first = self.merged
+        colors = colors_of(self.looks.fill[first])
+        names = tone_names(self.options.color_by, self.subject.seen_molecule)
+        chain = self.subject.seen_molecule.chain
+        named = [region_mark(str(chain[k]), str(names[k])) for k in first.tolist()]
+        return FillLayer("regions", regions.paths, colors, named, SPREAD)
+
+    @cached_property
+    def merged(self) -> tuple[Regions, Ints]:
+        """The regions of one chain and one colour, and a sphere of each."""
+        chain = np.unique(self.subject.seen_molecule.chain, return_inverse=True)[1]
+        keys = np.column_stack([chain, self.looks.fill])
+        _, first, label = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+        regions = merged_regions(self.map, self.arcs, label.ravel())
+        return regions, first[regions.label]
+
+    def atoms(self) -> FillLayer:
+        """Return one shape per visible atom, ordered by chain and residue so that these can be groups."""
+        face = self.map.loops.face
+        keep = np.flatnonzero((face != BACKGROUND) & ~self.sliver)
+        rank = _file_order(self.subject.molecule)[self.subject.atom]
+        order = keep[np.argsort(rank[face[keep]], kind="stable")]
+        shape = np.cumsum(np.append(False, np.diff(face[order]) != 0)[: len(order)])
+        paths = shapes_of(self.arcs, self.map.curve_arcs.curve, closed_chains(self.map.loops, order), shape)
+        sphere = face[order][np.searchsorted(shape, np.arange(len(paths.shape_start) - 1))]
+        spread = 0.0 if self.options.is_mask else SPREAD
+        named = marks(self.subject.molecule.take(self.subject.atom[sphere]), True)
+        return FillLayer("atoms", paths, colors_of(self.looks.fill[sphere]), named, spread)
+
+    def shade(self) -> list[Layer]:
+        """Return the contact shade, in the deep colour of whatever it falls on."""
+        if not self.style.shade.steps or self.options.is_mask:
+            return []
+        steps, opacity = contact_steps(self.map, self.view, self.runs, self.style.shade, self.placement)
+        distinct, label = np.unique(self.looks.shade, axis=0, return_inverse=True)
+        return self.shade_layer("contact shade", steps, opacity, label.ravel(), colors_of(distinct))
+
+    def light(self) -> list[Layer]:
+        """Return the bands of light."""
+        light = self.style.light
+        if not (light.terminators or light.highlights) or self.options.is_mask:
+            return []
+        dark, bright = light_bands(self.map, self.view, light, self.placement)
+        everything = np.zeros(len(self.map.spheres.radius), dtype=np.int64)
+        return [
+            *self.shade_layer("terminators", *dark, everything, [light.dark]),
+            *self.shade_layer("highlights", *bright, everything, [light.bright]),
+        ]
+
+    def shade_layer(
+        self, name: str, steps: Paths, opacity: list[float], label: Ints, colors: list[Color]
+    ) -> list[Layer]:
+        """Return steps clipped to the regions of each label (s,) and painted in its colour; none without steps."""
+        if not opacity:
+            return []
+        clip = merged_regions(self.map, self.arcs, label)
+        keys = np.column_stack([label, self.looks.fill])
+        _, first, tone_label = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+        tone = merged_regions(self.map, self.arcs, tone_label.ravel())
+        sphere = first[tone.label]
+        place = np.searchsorted(clip.label, label[sphere])
+        return [
+            ShadeLayer(
+                name, steps, opacity, clip.paths, [colors[k] for k in clip.label.tolist()],
+                tone.paths, colors_of(self.looks.fill[sphere]), place.tolist(),
+            )
+        ]  # fmt: skip
+
+    def edges(self) -> list[Layer]:
+        """Return even strokes along creases, outlines and silhouettes, those of one role in one layer."""
+        roles, on_curves = line_roles(self.map, self.sliver), self.map.curve_arcs
+        layers: list[Layer] = []
+        for role, width in ((CREASE, self.widths[1]), (OUTLINE, self.widths[0]), (SILHOUETTE, self.widths[0])):
+            rows = np.flatnonzero((roles == role) & self.wanted_creases) if role == CREASE else np.flatnonzero(roles == role)
+            if width > 0 and len(rows):
+                chains = linked(on_curves.origin, on_curves.target, on_curves.curve, rows)
+                opacity = self.style.lines.crease_opacity if role == CREASE else 1.0
+                paths = shapes_of(self.arcs, on_curves.curve, chains)
+                layers.append(StrokeLayer(ROLES[role], paths, width, self.style.lines.color, opacity=opacity))
+        return layers
+
+    @cached_property
+    def wanted_creases(self) -> Bools:
+        """Which arcs lie where the style wants creases."""
+        if self.style.lines.crease_where == "all":
+            return np.ones(len(self.map.left), dtype=bool)
+        group = np.append(self.looks.group, -1)
+        between: Bools = group[self.map.left] != group[self.map.right]
+        return between
+
+    def ink(self) -> list[Layer]:
+        """Return lines of varying width: dark ones around things, the things' own within them; far ones first."""
+        style = self.style.ink.scaled_to(self.options.outline, self.scale)
+        if not style.silhouette.at(self.scale) or self.options.is_mask:
+            return []
+        runs, looks = self.runs, self.looks
+        widths = line_widths(runs, looks.group, looks.far, style, self.scale)
+        strokes = strokes_of(runs, widths)
+        if not len(strokes.run):
+            return []
+        sphere = runs.sphere[strokes.run]
+        far_class = np.minimum((looks.far[sphere] * INK_CLASSES).astype(np.int64), INK_CLASSES - 1)
+        share = INK_FOG * self.style.fog.strength * (far_class + 0.5) / INK_CLASSES
+        dark = np.where(strokes.dark[:, None], self.style.lines.color, looks.ink[sphere])
+        color = mix(dark, self.haze, share)
+        paths, distinct = in_colors(outlined(runs, widths, strokes), np.column_stack([-far_class, color]))
+        paths = paths._replace(arcs=paths.arcs.moved(self.placement.scale, self.placement.shift))
+        return [FillLayer("ink", paths, colors_of(distinct[:, 1:]), [region_mark("", "ink")] * len(distinct))]
+
+
+def picture_of_map(view_map: VisibilityMap, view: View, subject: Subject, options: DrawOptions) -> Picture:
     """Return the drawing of a visibility map: regions that do not overlap, and on top every visible edge once."""
-    placement, widths = _placement(subject, options)
-    arcs, on_curves = view_map.arcs.moved(placement.scale, placement.shift), view_map.curve_arcs
-    sliver = slivers(view_map)
-    layers: list[Layer] = []
-    if options.fill != "none":
-        layers.append(_regions(view_map, arcs, sliver, subject, options))
-    roles = line_roles(view_map, sliver)
-    for role, width in ((CREASE, widths[1]), (OUTLINE, widths[0]), (SILHOUETTE, widths[0])):
-        rows = np.flatnonzero(roles == role)
-        if width > 0 and len(rows):
-            chains = linked(on_curves.origin, on_curves.target, on_curves.curve, rows)
-            paths = _paths(arcs, on_curves.curve, chains)
-            layers.append(StrokeLayer(ROLES[role], paths, width, options.style.line_color))
-    return _picture(subject, options, placement, widths, layers)
+    composer = MapComposer(view_map, view, subject, options)
+    return _picture(subject, options, composer.placement, composer.widths, composer.layers())
 
 
-def _regions(
-    view_map: VisibilityMap, arcs: PlaneArcs, sliver: Bools, subject: Subject, options: DrawOptions
-) -> FillLayer:
-    """One shape per visible atom, ordered by chain and residue so that these can be groups."""
-    keep = np.flatnonzero((view_map.loops.face != BACKGROUND) & ~sliver)
-    rank = _file_order(subject.molecule)[subject.atom]
-    order = keep[np.argsort(rank[view_map.loops.face[keep]], kind="stable")]
-    face = view_map.loops.face[order]
-    shape = np.cumsum(np.append(False, np.diff(face) != 0)[: len(face)])
-    paths = _paths(arcs, view_map.curve_arcs.curve, _chains_of(view_map.loops, order), shape)
-    first = np.searchsorted(shape, np.arange(len(paths.shape_start) - 1))
-    return _fills("atoms", paths, subject, face[first], options, True)
+def colors_of(rows: Ints) -> list[Color]:
+    """Return rows (m, 3) of sRGB as colours."""
+    return [(r, g, b) for r, g, b in rows.tolist()]
 
 
 def _file_order(molecule: Molecule) -> Ints:
@@ -91,39 +298,16 @@ def _file_order(molecule: Molecule) -> Ints:
     return rank
 
 
-def _chains_of(loops: Loops, rows: Ints) -> Chains:
-    """The given loops as closed chains."""
-    place, start = lists_taken(loops.start, rows)
-    return Chains(loops.half_edge[place], start, np.ones(len(rows), dtype=bool))
-
-
-def _paths(arcs: PlaneArcs, circle: Ints, chains: Chains, shape: Ints | None = None) -> Paths:
-    """Chains as paths; all of one shape unless ``shape`` says of which (ascending from 0)."""
-    rows, start = merged(arcs, circle, chains)
-    shape = np.zeros(len(start) - 1, dtype=np.int64) if shape is None else shape
-    return Paths(rows, start, offsets(shape, int(shape.max()) + 1 if len(shape) else 0))
-
-
-def _fills(name: str, paths: Paths, subject: Subject, sphere: Ints, options: DrawOptions, grouped: bool) -> FillLayer:
-    atoms = subject.atom[sphere]
-    everyone = atom_colors(options.color_by, subject.molecule, subject.values, options.style)
-    colors = [everyone[atom] for atom in atoms.tolist()]
-    if options.fill == "none":
-        colors = [options.background or (255, 255, 255)] * len(colors)
-    spread = 0.0 if options.color_by == "index" else SPREAD
-    return FillLayer(name, paths, colors, marks(subject.molecule.take(atoms), grouped), spread)
-
-
 def picture_of_pieces(pieces: Pieces, subject: Subject, options: DrawOptions) -> Picture:
-    """Return the drawing of painter's pieces, back to front, each with the strokes of its own edges."""
-    placement, widths = _placement(subject, options)
+    """Return the drawing of painter's pieces, back to front, each with the strokes of its own edges; fills are flat."""
+    placement, widths = placement_of(subject, options)
     arcs, is_crease = pieces.arcs.moved(placement.scale, placement.shift), pieces.is_crease()
     rank = np.full(len(subject.atom), -1)
     rank[pieces.order] = np.arange(len(pieces.order))
     order = np.argsort(rank[pieces.loops.face], kind="stable")
-    chains = _chains_of(pieces.loops, order)
+    chains = closed_chains(pieces.loops, order)
     shape = rank[pieces.loops.face[order]]
-    fills = _fills("fills", _paths(arcs, pieces.curve_arcs.curve, chains, shape), subject, pieces.order, options, False)
+    fills = _fills_of_pieces(shapes_of(arcs, pieces.curve_arcs.curve, chains, shape), pieces.order, subject, options)
     edge_shape = np.repeat(shape, np.diff(chains.start))
     edge = chains.half_edge >> 1
     strokes = [
@@ -134,42 +318,56 @@ def picture_of_pieces(pieces: Pieces, subject: Subject, options: DrawOptions) ->
     return _picture(subject, options, placement, widths, [StackedLayer("atoms", fills, strokes)])
 
 
+def _fills_of_pieces(paths: Paths, sphere: Ints, subject: Subject, options: DrawOptions) -> FillLayer:
+    atoms = subject.atom[sphere]
+    tint = np.zeros(len(subject.entities.chain), dtype=np.int64)
+    colors = colors_of(subject.colors(options, tint).fill[atoms])
+    if (options.fill or options.style.fill) == "none":
+        colors = [options.background or (255, 255, 255)] * len(colors)
+    spread = 0.0 if options.is_mask else SPREAD
+    return FillLayer("fills", paths, colors, marks(subject.molecule.take(atoms), False), spread)
+
+
 def _strokes_of_pieces(
     name: str, pieces: Pieces, arcs: PlaneArcs, edge: Ints, shape: Ints, width: float, options: DrawOptions
 ) -> StrokeLayer:
     """The edges of one kind, one shape per piece, each chained within its piece only."""
-    vertex = pieces.curve_arcs.origin * len(pieces.order), pieces.curve_arcs.target * len(pieces.order)
-    owner = np.zeros(len(pieces.curve_arcs.origin), dtype=np.int64)
+    on_curves, count = pieces.curve_arcs, len(pieces.order)
+    owner = np.zeros(len(on_curves.curve), dtype=np.int64)
     owner[edge] = shape
-    chains = linked(vertex[0] + owner, vertex[1] + owner, pieces.curve_arcs.curve, edge)
+    chains = linked(on_curves.origin * count + owner, on_curves.target * count + owner, on_curves.curve, edge)
     of_chain = owner[chains.half_edge[chains.start[:-1]] >> 1]
     order = np.argsort(of_chain, kind="stable")
-    loops = Loops(chains.half_edge, chains.start, of_chain)
-    ordered = _chains_of(loops, order)._replace(closed=chains.closed[order])
-    rows, start = merged(arcs, pieces.curve_arcs.curve, ordered)
-    return StrokeLayer(name, Paths(rows, start, offsets(of_chain, len(pieces.order))), width, options.style.line_color)
+    ordered = closed_chains(Loops(chains.half_edge, chains.start, of_chain), order)._replace(closed=chains.closed[order])
+    rows, start = merged(arcs, on_curves.curve, ordered)
+    return StrokeLayer(name, Paths(rows, start, offsets(of_chain, count)), width, options.style.lines.color)
 
 
-def _placement(subject: Subject, options: DrawOptions) -> tuple[Placement, tuple[float, float]]:
-    """Where the drawing lies, and the widths of outlines and creases in points."""
-    style = options.style
-    widest = max(style.outline.width if options.outline is None else options.outline, options.crease or 0.0)
+def placement_of(subject: Subject, options: DrawOptions) -> tuple[Placement, tuple[float, float]]:
+    """Return where the drawing lies, and the widths of outlines and creases in points, 0 for none."""
+    lines = options.style.lines
+    widest = max(options.style.ink.silhouette.points, lines.outline.width)
+    widest = max(widest if options.outline is None else options.outline, options.crease or 0.0)
     placement = place(options.page, subject.low, subject.high, widest / 2, LEGEND_WIDTH if options.legend else 0.0)
-    outline = style.outline.at(placement.scale) if options.outline is None else options.outline
-    crease = style.crease.at(placement.scale) if options.crease is None else options.crease
+    outline = lines.outline.at(placement.scale)
+    if options.outline is not None and not options.style.ink.silhouette.points:
+        outline = options.outline
+    crease = lines.crease.at(placement.scale) if options.crease is None else options.crease
     return placement, (outline, crease)
 
 
 def _picture(
     subject: Subject, options: DrawOptions, placement: Placement, widths: tuple[float, float], layers: list[Layer]
 ) -> Picture:
-    half = max(*widths, 0.0 if options.color_by == "index" else SPREAD) / 2
+    ink = options.style.ink.scaled_to(options.outline, placement.scale).silhouette.at(placement.scale)
+    half = max(*widths, 2 * 0.6 * ink * placement.scale, 0.0 if options.is_mask else SPREAD) / 2
     low, high = (placement.scale * corner + placement.shift for corner in (subject.low, subject.high))
     right = float(high[0] + half)
     if options.legend:
         x, middle = right + 16.0, float(low[1] + high[1]) / 2
         reach = min(float(high[1] - low[1]) / 2 - 12.0, 90.0)
-        layers += legend(subject.values, CONTINUOUS[options.color_by], options.style, x, middle - reach, middle + reach)
+        title = CONTINUOUS[options.color_by]
+        layers += legend(subject.values, title, options.style, x, middle - reach, middle + reach)
         right = placement.width - 1.0
     box = (float(low[0] - half), float(low[1] - half), right, float(high[1] + half))
     return Picture(

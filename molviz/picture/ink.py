@@ -12,7 +12,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths, PlaneArcs
-from molviz.geometry.rows import expand, offsets
+from molviz.geometry.rows import expand, lists_taken, offsets
 from molviz.vectors import cross, dot
 from molviz.visibility.horizon_runs import SPACING, HorizonRuns
 from molviz.visibility.map import BACKGROUND
@@ -133,11 +133,11 @@ def strokes_of(runs: HorizonRuns, widths: Widths) -> Strokes:
     at_start, at_end = first == begin, last == end
     # one sample farther: the point in which the line ends, or the place where the other ink takes over
     beyond = np.minimum(last + 1, len(drawn) - 1)
-    low = first - begin - np.where(at_start, 0.0, np.where(drawn[first - 1], 0.5, 1.0))
-    high = last - begin + np.where(at_end, 0.0, np.where(drawn[beyond], 0.5, 1.0))
+    low = (first - begin) - np.where(at_start, 0.0, np.where(drawn[first - 1], 0.5, 1.0))
+    high = (last - begin) + np.where(at_end, 0.0, np.where(drawn[beyond], 0.5, 1.0))
     closed = runs.closed[run]
     whole = closed & at_start & at_end
-    return Strokes(run, low, high, widths.dark[first], at_start & ~closed, at_end & ~closed, whole)
+    return Strokes(run, np.asarray(low, dtype=float), np.asarray(high, dtype=float), widths.dark[first], at_start & ~closed, at_end & ~closed, whole)
 
 
 def outlined(runs: HorizonRuns, widths: Widths, strokes: Strokes) -> Paths:
@@ -291,3 +291,13 @@ def arcs_through(start: Floats, middle: Floats, end: Floats) -> PlaneArcs:
         np.where(pick, line.c, start + center), np.where(pick, line.u, u), np.where(pick, line.v, v),
         np.where(flat, line.start, 0.0), np.where(flat, line.sweep, sweep),
     )  # fmt: skip
+
+
+def in_colors(paths: Paths, color: Ints) -> tuple[Paths, Ints]:
+    """Return shapes of equal colour as one shape each, and the distinct colours (c, 3), in order of ``color``'s rank."""
+    distinct, number = np.unique(color, axis=0, return_inverse=True)
+    shapes = np.argsort(number.ravel(), kind="stable")
+    loop, start = lists_taken(paths.shape_start, shapes)
+    arc, loop_start = lists_taken(paths.loop_start, loop)
+    count = np.bincount(number.ravel(), np.diff(start), len(distinct)).astype(np.int64)
+    return Paths(paths.arcs.take(arc), loop_start, np.concatenate([[0], np.cumsum(count)])), distinct

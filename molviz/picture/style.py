@@ -1,7 +1,7 @@
-"""What a picture looks like: a table of choices from TOML files, each of which may say only how it differs from another.
+"""What a picture looks like: choices from TOML files, each of which may say only how it differs from another.
 
-Every key of every section has a type and stands in ``styles/flat.toml`` with its meaning. Colours are taste and live here;
-radii are physics and do not.
+Every key of every section has a type and stands in ``styles/flat.toml`` with its meaning. Colours are taste and live
+here; radii are physics and do not.
 """
 
 import difflib
@@ -14,6 +14,7 @@ from typing import Any
 
 from molviz import toml
 from molviz.errors import InputError
+from molviz.picture.colors import parse_color
 from molviz.picture.ink import InkStyle, Pen
 from molviz.picture.picture import Color
 
@@ -80,7 +81,7 @@ class Shade:
 
 @dataclass(frozen=True)
 class Light:
-    """Where light falls: towards the light (x, y, z), and (cosine, opacity) of where it ends and where it is mirrored."""
+    """Bands of light: the direction towards it, and (cosine, opacity) of where it ends and where it is mirrored."""
 
     direction: tuple[float, float, float]
     dark: Color
@@ -101,14 +102,12 @@ class Hatch:
 
 @dataclass(frozen=True)
 class Colors:
-    """Which scheme and palette by default, and the style's own colours."""
+    """The scheme by default, and the style's own colours; those of chains and entities are the palette's."""
 
     scheme: str
-    palette: str
     unknown: Color
     element: dict[str, Color]
     residue: dict[str, Color]
-    chain: tuple[Color, ...]
     ramp: tuple[Color, ...]
 
 
@@ -118,6 +117,7 @@ class Style:
 
     title: str
     fill: str
+    parts: str
     lines: Lines
     ink: InkStyle
     fog: Fog
@@ -257,6 +257,7 @@ def _style(root: _Section) -> Style:
     return Style(
         title=root.text("title"),
         fill=root.choice("fill", ("flat", "ball", "none")),
+        parts=root.choice("parts", ("atoms", "merged")),
         lines=_lines(root.section("lines")),
         ink=_ink(root.section("ink")),
         fog=_fog(root.section("fog")),
@@ -269,7 +270,8 @@ def _style(root: _Section) -> Style:
 
 def _lines(lines: _Section) -> Lines:
     outline, crease = (
-        Line(lines.number(name, 0, WIDEST), lines.number(f"{name}_angstrom", 0, WIDEST)) for name in ("outline", "crease")
+        Line(lines.number(name, 0, WIDEST), lines.number(f"{name}_angstrom", 0, WIDEST))
+        for name in ("outline", "crease")
     )
     where = lines.choice("crease_where", ("all", "between"))
     return Lines(lines.color("color"), outline, crease, lines.number("crease_opacity", 0, 1), where)
@@ -318,21 +320,9 @@ def _hatch(hatch: _Section) -> Hatch:
 
 def _colors(colors: _Section) -> Colors:
     return Colors(
-        scheme=colors.text("scheme"),
-        palette=colors.text("palette"),
+        scheme=colors.choice("scheme", ("element", "entity", "chain", "residue")),
         unknown=colors.color("unknown"),
         element=colors.colors_by_name("element"),
         residue=colors.colors_by_name("residue"),
-        chain=colors.colors("chain"),
         ramp=colors.colors("ramp"),
     )
-
-
-def parse_color(text: str) -> Color:
-    """Return the colour of ``#rgb``, ``#rrggbb`` or one of a few names; raises ValueError for anything else."""
-    named = {"white": "#fff", "black": "#000", "grey": "#808080", "gray": "#808080"}.get(text.lower(), text)
-    digits = named.removeprefix("#")
-    if named.startswith("#") and len(digits) in (3, 6):
-        wide = digits if len(digits) == 6 else "".join(2 * digit for digit in digits)
-        return int(wide[0:2], 16), int(wide[2:4], 16), int(wide[4:6], 16)
-    raise ValueError(f"{text!r} is not a colour; expected #rgb, #rrggbb, white, black or grey")

@@ -1,0 +1,44 @@
+"""Faces become regions: one for each atom, or one for all faces of one colour and chain, whose inner edges are gone."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from molviz.arrays import Ints
+from molviz.curves import Paths, PlaneArcs
+from molviz.geometry.planar_map import Loops, loops, merged_faces
+from molviz.geometry.rows import lists_taken, offsets
+from molviz.picture.chains import Chains, merged
+from molviz.visibility.map import BACKGROUND, VisibilityMap
+
+
+class Regions(NamedTuple):
+    """Shapes, and the label that each has."""
+
+    paths: Paths
+    label: Ints  # (shapes,) ascending
+
+
+def closed_chains(boundary: Loops, rows: Ints) -> Chains:
+    """Return the given loops as closed chains."""
+    place, start = lists_taken(boundary.start, rows)
+    return Chains(boundary.half_edge[place], start, np.ones(len(rows), dtype=bool))
+
+
+def shapes_of(arcs: PlaneArcs, curve: Ints, chains: Chains, shape: Ints | None = None) -> Paths:
+    """Return chains as paths; all of one shape unless ``shape`` says of which (ascending from 0)."""
+    rows, start = merged(arcs, curve, chains)
+    shape = np.zeros(len(start) - 1, dtype=np.int64) if shape is None else shape
+    return Paths(rows, start, offsets(shape, int(shape.max()) + 1 if len(shape) else 0))
+
+
+def merged_regions(view_map: VisibilityMap, arcs: PlaneArcs, label: Ints) -> Regions:
+    """Return the regions of equal labels, exact unions of faces; ``label`` (s,) of each sphere, from 0.
+
+    ``arcs`` are the map's on the page.
+    """
+    labels = np.append(label, BACKGROUND)  # BACKGROUND is −1, the last
+    boundary = loops(merged_faces(view_map.edges, labels[view_map.edges.face]))
+    rows = np.flatnonzero(boundary.face != BACKGROUND)
+    known, shape = np.unique(boundary.face[rows], return_inverse=True)
+    return Regions(shapes_of(arcs, view_map.curve_arcs.curve, closed_chains(boundary, rows), shape), known)
