@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints, Strings
+from molviz.arrays import Bools, Floats, Ints, Strings
 from molviz.model.entities import WATER, Entities, is_metal
 from molviz.model.molecule import Molecule
 from molviz.picture.oklab import mix
@@ -44,6 +44,12 @@ class AtomColors(NamedTuple):
     def take(self, rows: Ints) -> "AtomColors":
         """Return the colours of the given atoms."""
         return AtomColors(self.fill[rows], self.ink[rows], self.shade[rows])
+
+    def painted(self, atoms: Bools, color: Color, palette: Palette) -> "AtomColors":
+        """Return the same with the given atoms (n,) in one colour."""
+        own = with_own_darks(np.array([color]), palette)
+        columns = (np.where(atoms[:, None], new, old) for new, old in zip(own, self, strict=True))
+        return AtomColors(*columns)
 
 
 def atom_colors(scheme: str, subject: ColorSubject, style: Style, palette: Palette, tint: Ints) -> AtomColors:

@@ -13,6 +13,7 @@ from molviz.model.entities import Entities, entities_of
 from molviz.model.molecule import Molecule
 from molviz.picture.chains import linked, merged
 from molviz.picture.coloring import CONTINUOUS, AtomColors, ColorSubject, atom_colors, order_of_appearance
+from molviz.picture.hatching import LEVELS, hatched, level_distance, tone_levels
 from molviz.picture.ink import in_colors, line_widths, outlined, strokes_of
 from molviz.picture.legend import WIDTH as LEGEND_WIDTH
 from molviz.picture.legend import legend
@@ -27,7 +28,7 @@ from molviz.picture.looks import (
     tone_names,
 )
 from molviz.picture.marks import marks, region_mark
-from molviz.picture.oklab import mix
+from molviz.picture.oklab import lightness, mix
 from molviz.picture.page import Page, Placement, place
 from molviz.picture.palette import Palette
 from molviz.picture.picture import (
@@ -40,15 +41,17 @@ from molviz.picture.picture import (
     StackedLayer,
     StrokeLayer,
 )
-from molviz.picture.regions import Regions, closed_chains, merged_regions, shapes_of
-from molviz.picture.shading import contact_steps, light_bands
+from molviz.picture.regions import Regions, closed_chains, merged_regions, shape_of, shapes_of, stacked
+from molviz.picture.shading import ball_gradients, contact_steps, light_bands
 from molviz.picture.style import Style
 from molviz.picture.tints import entity_tints
+from molviz.visibility.eye import projection_of
 from molviz.visibility.horizon_runs import HorizonRuns, horizon_runs
 from molviz.visibility.lines import CREASE, OUTLINE, ROLES, SILHOUETTE, line_roles, slivers
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.overlay import seen_spheres
 from molviz.visibility.painter import Pieces
+from molviz.visibility.projection import images_of
 from molviz.visibility.view import View
 
 INK_CLASSES = 3  # of distance, in which ink takes on the haze
@@ -122,7 +125,7 @@ class MapComposer:
         layers: list[Layer] = []
         if self.fill != "none":
             layers += [self.regions(), *self.shade(), *self.light()]
-        return [*layers, *self.edges(), *self.ink()]
+        return [*layers, *self.hatching(), *self.edges(), *self.ink()]
 
     @cached_property
     def seen(self) -> Ints:
@@ -163,7 +166,7 @@ class MapComposer:
 
     def regions(self) -> FillLayer:
         """Return the fills."""
-        if self.options.is_mask or (self.options.parts or self.style.parts) == "atoms":
+        if self.options.is_mask or self.fill == "ball" or (self.options.parts or self.style.parts) == "atoms":
             return self.atoms()
         regions, first = self.merged
         colors = colors_of(self.looks.fill[first])
@@ -190,9 +193,15 @@ class MapComposer:
         shape = np.cumsum(np.append(False, np.diff(face[order]) != 0)[: len(order)])
         paths = shapes_of(self.arcs, self.map.curve_arcs.curve, closed_chains(self.map.loops, order), shape)
         sphere = face[order][np.searchsorted(shape, np.arange(len(paths.shape_start) - 1))]
-        spread = 0.0 if self.options.is_mask else SPREAD
         named = marks(self.subject.molecule.take(self.subject.atom[sphere]), True)
-        return FillLayer("atoms", paths, colors_of(self.looks.fill[sphere]), named, spread)
+        if self.options.is_mask:
+            return FillLayer("atoms", paths, colors_of(self.looks.fill[sphere]), named)
+        if self.fill != "ball":
+            return FillLayer("atoms", paths, colors_of(self.looks.fill[sphere]), named, SPREAD)
+        images = images_of(self.map.horizons().take(sphere), projection_of(self.view))
+        images = images.moved(self.placement.scale, self.placement.shift)
+        balls = ball_gradients(self.looks.fill[sphere], images.major(), self.style)
+        return FillLayer("atoms", paths, balls, named, SPREAD, images.c)
 
     def shade(self) -> list[Layer]:
         """Return the contact shade, in the deep colour of whatever it falls on."""
@@ -233,12 +242,33 @@ class MapComposer:
             )
         ]  # fmt: skip
 
+    def hatching(self) -> list[Layer]:
+        """Return parallel lines, the denser the darker a region; across them in the bands that light does not reach."""
+        hatch, light = self.style.hatch, self.style.light
+        if not hatch.nearest or self.options.is_mask:
+            return []
+        level = tone_levels(lightness(self.looks.fill))
+        regions = merged_regions(self.map, self.arcs, level)
+        lines = [
+            hatched(shape_of(regions.paths, row), level_distance(number, hatch.nearest, hatch.farthest), hatch.angle)
+            for row, number in enumerate(regions.label.tolist())
+            if number < LEVELS
+        ]
+        (dark, opacity), _ = light_bands(self.map, self.view, light, self.placement)
+        across = [
+            hatched(shape_of(dark, row), hatch.nearest * (2 + row), hatch.angle + 90.0) for row in range(len(opacity))
+        ]
+        return [StrokeLayer(name, stacked(parts), hatch.width, self.style.lines.color)
+                for name, parts in (("hatching", lines), ("hatching across", across)) if parts]  # fmt: skip
+
     def edges(self) -> list[Layer]:
         """Return even strokes along creases, outlines and silhouettes, those of one role in one layer."""
         roles, on_curves = line_roles(self.map, self.sliver), self.map.curve_arcs
         layers: list[Layer] = []
         for role, width in ((CREASE, self.widths[1]), (OUTLINE, self.widths[0]), (SILHOUETTE, self.widths[0])):
-            rows = np.flatnonzero((roles == role) & self.wanted_creases) if role == CREASE else np.flatnonzero(roles == role)
+            rows = np.flatnonzero(roles == role)
+            if role == CREASE:
+                rows = rows[self.wanted_creases[rows]]
             if width > 0 and len(rows):
                 chains = linked(on_curves.origin, on_curves.target, on_curves.curve, rows)
                 opacity = self.style.lines.crease_opacity if role == CREASE else 1.0
@@ -338,7 +368,8 @@ def _strokes_of_pieces(
     chains = linked(on_curves.origin * count + owner, on_curves.target * count + owner, on_curves.curve, edge)
     of_chain = owner[chains.half_edge[chains.start[:-1]] >> 1]
     order = np.argsort(of_chain, kind="stable")
-    ordered = closed_chains(Loops(chains.half_edge, chains.start, of_chain), order)._replace(closed=chains.closed[order])
+    ordered = closed_chains(Loops(chains.half_edge, chains.start, of_chain), order)
+    ordered = ordered._replace(closed=chains.closed[order])
     rows, start = merged(arcs, on_curves.curve, ordered)
     return StrokeLayer(name, Paths(rows, start, offsets(of_chain, count)), width, options.style.lines.color)
 

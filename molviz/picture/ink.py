@@ -41,17 +41,32 @@ class Pen:
         """Return the width in ångström in a drawing of ``scale`` points per ångström."""
         return min(self.angstrom, self.points / scale)
 
+    def times(self, factor: float) -> "Pen":
+        """Return a pen that is so many times as wide."""
+        return Pen(self.angstrom * factor, self.points * factor)
+
 
 @dataclass(frozen=True)
 class InkStyle:
-    """Pens before the background, before another chain and inside a chain; jumps in ångström where lines begin and
-    where they are full."""
+    """Pens before the background, before another chain and inside a chain.
+
+    ``faint`` and ``full`` are the jumps in ångström at which inner lines begin and at which they are full.
+    """
 
     silhouette: Pen
     between: Pen
     inside: Pen
     faint: float
     full: float
+
+    def scaled_to(self, points: float | None, scale: float) -> "InkStyle":
+        """Return the style with silhouettes of so many points and all other pens in proportion; itself for None."""
+        usual = self.silhouette.at(scale) * scale
+        if points is None or not usual:
+            return self
+        factor = points / usual
+        silhouette, between, inside = (pen.times(factor) for pen in (self.silhouette, self.between, self.inside))
+        return InkStyle(silhouette, between, inside, self.faint, self.full)
 
 
 class Widths(NamedTuple):
@@ -133,11 +148,11 @@ def strokes_of(runs: HorizonRuns, widths: Widths) -> Strokes:
     at_start, at_end = first == begin, last == end
     # one sample farther: the point in which the line ends, or the place where the other ink takes over
     beyond = np.minimum(last + 1, len(drawn) - 1)
-    low = (first - begin) - np.where(at_start, 0.0, np.where(drawn[first - 1], 0.5, 1.0))
-    high = (last - begin) + np.where(at_end, 0.0, np.where(drawn[beyond], 0.5, 1.0))
+    low = (first - begin).astype(float) - np.where(at_start, 0.0, np.where(drawn[first - 1], 0.5, 1.0))
+    high = (last - begin).astype(float) + np.where(at_end, 0.0, np.where(drawn[beyond], 0.5, 1.0))
     closed = runs.closed[run]
     whole = closed & at_start & at_end
-    return Strokes(run, np.asarray(low, dtype=float), np.asarray(high, dtype=float), widths.dark[first], at_start & ~closed, at_end & ~closed, whole)
+    return Strokes(run, low, high, widths.dark[first], at_start & ~closed, at_end & ~closed, whole)
 
 
 def outlined(runs: HorizonRuns, widths: Widths, strokes: Strokes) -> Paths:
@@ -294,7 +309,7 @@ def arcs_through(start: Floats, middle: Floats, end: Floats) -> PlaneArcs:
 
 
 def in_colors(paths: Paths, color: Ints) -> tuple[Paths, Ints]:
-    """Return shapes of equal colour as one shape each, and the distinct colours (c, 3), in order of ``color``'s rank."""
+    """Return shapes of equal rows of ``color`` (k, c) as one shape each, and the distinct rows, ascending."""
     distinct, number = np.unique(color, axis=0, return_inverse=True)
     shapes = np.argsort(number.ravel(), kind="stable")
     loop, start = lists_taken(paths.shape_start, shapes)

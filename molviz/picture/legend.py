@@ -20,12 +20,12 @@ def legend(values: Floats, title: str, style: Style, x: float, low: float, high:
     least, greatest = (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
     steps = np.linspace(0.0, 1.0, STEPS)
     marks = [Mark(f"legend{row}") for row in range(STEPS)]
-    bar = FillLayer("legend", _rectangles(x, low, high), on_ramp(steps, style.ramp, style.unknown), marks, SPREAD)
+    bar = FillLayer("legend", _rectangles(x, low, high), on_ramp(steps, style.colors.ramp, style.colors.unknown), marks, SPREAD)
     ticks = [
         Text(x + BAR + 4, low + share * (high - low) - SIZE / 3, f"{least + share * (greatest - least):.4g}", SIZE)
         for share in (0.0, 0.5, 1.0)
     ]
-    return [bar, TextLayer("legend text", [*ticks, Text(x, high + SIZE, title, SIZE)], style.line_color)]
+    return [bar, TextLayer("legend text", [*ticks, Text(x, high + SIZE, title, SIZE)], style.lines.color)]
 
 
 def _rectangles(x: float, low: float, high: float) -> Paths:

@@ -19,3 +19,10 @@ def _mark(chain: str, name: str, residue: str, atom: str, element: str, row: int
     if grouped:
         return Mark(mark_id, title, (element,), ((chain or "-", f"chain chain-{chain}"), (place, f"residue {name}")))
     return Mark(mark_id, title, (element, name, f"chain-{chain}" if chain else "chain"))
+
+
+def region_mark(chain: str, tone: str) -> Mark:
+    """Return the mark of a region of one chain and one tone; either may be empty."""
+    title = ", ".join(filter(None, (f"chain {chain}" if chain else "", tone)))
+    groups = ((chain, f"chain chain-{chain}"),) if chain else ()
+    return Mark("_".join(filter(None, (chain, tone))) or "region", title, (tone,) if tone else (), groups)

@@ -12,6 +12,27 @@ from molviz.picture.chains import Chains, merged
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 
 
+def shape_of(paths: Paths, shape: int) -> Paths:
+    """Return one of the shapes as paths of their own."""
+    first, last = paths.shape_start[shape], paths.shape_start[shape + 1]
+    loop_start = paths.loop_start[first : last + 1]
+    arcs = paths.arcs.take(np.arange(loop_start[0], loop_start[-1]))
+    return Paths(arcs, loop_start - loop_start[0], np.array([0, last - first]))
+
+
+def stacked(tables: list[Paths]) -> Paths:
+    """Return the shapes of several tables as one table."""
+    nothing = PlaneArcs(np.empty((0, 2)), np.empty((0, 2)), np.empty((0, 2)), np.empty(0), np.empty(0))
+    arcs = PlaneArcs(*map(np.concatenate, zip(nothing, *(one.arcs for one in tables), strict=True)))
+    return Paths(arcs, _joined([one.loop_start for one in tables]), _joined([one.shape_start for one in tables]))
+
+
+def _joined(starts: list[Ints]) -> Ints:
+    """CSR offsets of tables that follow each other."""
+    counts = [np.diff(start) for start in starts]
+    return np.concatenate([[0], np.cumsum(np.concatenate([np.empty(0, dtype=np.int64), *counts]))])
+
+
 class Regions(NamedTuple):
     """Shapes, and the label that each has."""
 

@@ -5,9 +5,11 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.curves import Paths, PlaneArcs
 from molviz.model.spheres import Spheres
+from molviz.picture.oklab import mix
 from molviz.picture.page import Placement
-from molviz.picture.regions import closed_chains, shapes_of
-from molviz.picture.style import Light, Shade, ShadeStep
+from molviz.picture.picture import Color, RadialGradient
+from molviz.picture.regions import closed_chains, shapes_of, stacked
+from molviz.picture.style import Light, Shade, ShadeStep, Style
 from molviz.visibility.eye import projection_of
 from molviz.visibility.horizon_runs import HorizonRuns
 from molviz.visibility.map import VisibilityMap
@@ -23,6 +25,8 @@ from molviz.visibility.view import View
 
 LEDGE_FROM = 1.0  # ångström: wider skirts hang from ledges only, not from lone tips
 LEDGE_WITHIN = 1.6  # ångström beyond the skirt's reach
+RADIUS_STEP = 0.03  # of a radius: the eye tells no gradients apart that differ by less
+FOCUS = 0.55  # of the radius, how far from the middle a ball is brightest, times the light's x and y
 LEDGE_COUNT = 7  # spheres that make a ledge
 
 
@@ -87,18 +91,31 @@ def _region(spheres: Spheres, copies: Spheres, view: View, placement: Placement)
 
 
 def _stacked(parts: list[tuple[Paths, float]]) -> tuple[Paths, list[float]]:
-    """Shapes of several tables as one table, without those that are empty."""
+    """The shapes that are not empty as one table, and their opacities."""
     parts = [(paths, opacity) for paths, opacity in parts if len(paths.arcs.c)]
-    if not parts:
-        nothing = PlaneArcs(np.empty((0, 2)), np.empty((0, 2)), np.empty((0, 2)), np.empty(0), np.empty(0))
-        return Paths(nothing, np.zeros(1, dtype=np.int64), np.zeros(1, dtype=np.int64)), []
-    tables = [paths for paths, _ in parts]
-    arcs = PlaneArcs(*map(np.concatenate, zip(*(one.arcs for one in tables), strict=True)))
-    loop_start = _joined([one.loop_start for one in tables])
-    return Paths(arcs, loop_start, _joined([one.shape_start for one in tables])), [opacity for _, opacity in parts]
+    return stacked([paths for paths, _ in parts]), [opacity for _, opacity in parts]
 
 
-def _joined(starts: list[Ints]) -> Ints:
-    """CSR offsets of tables that follow each other."""
-    counts = np.concatenate([np.diff(start) for start in starts])
-    return np.concatenate([[0], np.cumsum(counts)])
+def ball_gradients(color: Ints, radius: Floats, style: Style) -> list[RadialGradient]:
+    """Return the shading of balls of the given colours (k, 3) and radii (k,) on the page, equal ones being equal.
+
+    Radii are rounded to a few per cent, so that a central view, in which each ball has its own, needs few gradients.
+    """
+    x, y, _ = style.light.direction
+    steps = np.exp(np.round(np.log(radius) / RADIUS_STEP) * RADIUS_STEP)
+    bright = mix(color, style.light.bright, style.ball.bright)
+    dark = mix(color, style.light.dark, style.ball.dark)
+    deep = mix(color, style.light.dark, style.ball.dark / 4)
+    rows = zip(*(rows.tolist() for rows in (np.round(steps, 2), bright, color, deep, dark)), strict=True)
+    return [
+        RadialGradient(
+            size, (FOCUS * x * size, FOCUS * y * size),
+            ((0.0, _color(light)), (0.3, _color(own)), (0.75, _color(deeper)), (1.0, _color(edge))),
+        )
+        for size, light, own, deeper, edge in rows
+    ]  # fmt: skip
+
+
+def _color(row: list[int]) -> Color:
+    red, green, blue = row
+    return red, green, blue

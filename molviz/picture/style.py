@@ -91,6 +91,14 @@ class Light:
 
 
 @dataclass(frozen=True)
+class Ball:
+    """How much of the light's bright and dark colours a shaded ball takes on where it is brightest and darkest."""
+
+    bright: float
+    dark: float
+
+
+@dataclass(frozen=True)
 class Hatch:
     """Parallel lines over regions: points between them for the darkest and the lightest tone, and their angle."""
 
@@ -123,6 +131,7 @@ class Style:
     fog: Fog
     shade: Shade
     light: Light
+    ball: Ball
     hatch: Hatch
     colors: Colors
 
@@ -263,6 +272,7 @@ def _style(root: _Section) -> Style:
         fog=_fog(root.section("fog")),
         shade=_shade(root.section("shade")),
         light=_light(root.section("light")),
+        ball=Ball(root.section("ball").number("bright", 0, 1), root.section("ball").number("dark", 0, 1)),
         hatch=_hatch(root.section("hatch")),
         colors=_colors(root.section("colors")),
     )
@@ -278,12 +288,12 @@ def _lines(lines: _Section) -> Lines:
 
 
 def _ink(ink: _Section) -> InkStyle:
-    pens = (
+    silhouette, between, inside = (
         Pen(ink.number(f"{kind}_angstrom", 0, WIDEST), ink.number(kind, 0, WIDEST))
         for kind in ("silhouette", "between", "inside")
     )
     faint = ink.number("faint", 0, DEEPEST)
-    return InkStyle(*pens, faint, max(ink.number("full", 0, DEEPEST), faint + LEAST_RAMP))
+    return InkStyle(silhouette, between, inside, faint, max(ink.number("full", 0, DEEPEST), faint + LEAST_RAMP))
 
 
 def _fog(fog: _Section) -> Fog:

@@ -104,7 +104,7 @@ def stacked(layer: StackedLayer) -> Iterator[str]:
     """Yield the operators of a stacked layer, shape by shape: its fill, then its strokes over that."""
     fills, paint = shape_texts(layer.fills.paths), "B" if layer.fills.spread else "f"
     strokes = [(pen(one), shape_texts(one.paths)) for one in layer.strokes]
-    for row, (fill, color) in enumerate(zip(fills, layer.fills.color, strict=True)):
+    for row, (fill, color) in enumerate(zip(fills, layer.fills.paint, strict=True)):
         text = color_text(color)
         yield f"{number(layer.fills.spread, PLACES)} w {text} rg {text} RG {fill} {paint}"
         yield from (f"{command} {shapes[row]} S" for command, shapes in strokes if shapes[row])
@@ -119,7 +119,7 @@ def shape_texts(paths: Paths) -> list[str]:
 def filled(layer: FillLayer, shapes: list[str]) -> Iterator[str]:
     """Yield the filled shapes, with a colour where it changes."""
     current = None
-    for shape, color in zip(shapes, layer.color, strict=True):
+    for shape, color in zip(shapes, layer.paint, strict=True):
         if color != current:
             current, text = color, color_text(color)
             yield f"{text} rg {text} RG" if layer.spread else f"{text} rg"

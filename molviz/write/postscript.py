@@ -117,7 +117,7 @@ def stacked(layer: StackedLayer) -> Iterator[str]:
     strokes = [(pen(one), shape_texts(one.paths, False)) for one in layer.strokes]
     for shape, loops in enumerate(fill_loops):
         yield from title_line(fills.mark[shape])
-        yield color_text(fills.color[shape])
+        yield color_text(fills.paint[shape])
         yield from (*loops, paint)
         for command, texts in strokes:
             if texts[shape]:
@@ -143,8 +143,8 @@ def filled(layer: FillLayer) -> Iterator[str]:
     paint, current = "b" if layer.spread else "f", None
     for shape, loops in enumerate(shape_texts(layer.paths, True)):
         yield from title_line(layer.mark[shape])
-        if layer.color[shape] != current:
-            current = layer.color[shape]
+        if layer.paint[shape] != current:
+            current = layer.paint[shape]
             yield color_text(current)
         yield from (*loops, paint)
 

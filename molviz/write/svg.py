@@ -96,7 +96,7 @@ class Elements:
     def regions(self, layer: Group, data: Sequence[str], fills: FillLayer) -> None:
         """Add filled shapes in their groups."""
         nest, looks = Nest(self, layer), self.looks(fills)
-        for d, mark, color in zip(data, fills.mark, fills.color, strict=True):
+        for d, mark, color in zip(data, fills.mark, fills.paint, strict=True):
             if d:
                 name, attributes = looks[color]
                 path = Path(d, factory=self.drawing, **attributes)
@@ -106,7 +106,7 @@ class Elements:
         """Add one group per shape: its fill, and its strokes over that."""
         fills, looks = path_data(stacked.fills.paths, height), self.looks(stacked.fills)
         strokes = [(self.rule(stroke_rule(one)), path_data(one.paths, height)) for one in stacked.strokes]
-        for row, (mark, color) in enumerate(zip(stacked.fills.mark, stacked.fills.color, strict=True)):
+        for row, (mark, color) in enumerate(zip(stacked.fills.mark, stacked.fills.paint, strict=True)):
             name, attributes = looks[color]
             group = self.named(Group(factory=self.drawing, **attributes), mark, name)
             group.add(Path(fills[row], factory=self.drawing))
@@ -118,7 +118,7 @@ class Elements:
     def looks(self, fills: FillLayer) -> dict[Color, tuple[tuple[str, ...], dict[str, str]]]:
         """Return classes and attributes that give a shape each colour: a class for those that come often."""
         looks: dict[Color, tuple[tuple[str, ...], dict[str, str]]] = {}
-        for color, times in Counter(fills.color).items():
+        for color, times in Counter(fills.paint).items():
             look = fill_attributes(color, fills.spread)
             rule = ";".join(f"{name}:{value}" for name, value in look.items())
             looks[color] = ((self.rule(rule),), {}) if times >= OFTEN else ((), look)
