@@ -18,7 +18,7 @@ from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.scene import Scene, map_as_given
 from molviz.visibility.view import View
 
-MOVED = 0.02  # of a radius: how far a copy that marks a side of its sphere is moved
+MOVED = 1e-3  # of a radius: how far a copy that marks a side of its sphere is moved, and sticks out at most
 
 
 def seen_spheres(view_map: VisibilityMap) -> Ints:
