@@ -10,11 +10,12 @@ COMMON = {"arrays", "curves", "errors", "toml", "vectors"}
 STAGES = {  # what each stage may import, besides itself and COMMON
     "model": set(),
     "readers": {"model"},
+    "adapters": {"model", "readers"},
     "geometry": {"model"},
     "visibility": {"model", "geometry"},
     "picture": {"model", "geometry", "visibility"},
     "write": {"picture"},
-    "pipeline": {"model", "readers", "geometry", "visibility", "picture", "write"},
+    "pipeline": {"model", "readers", "adapters", "geometry", "visibility", "picture", "write"},
     "cli": {"model", "pipeline", "picture"},
 }
 HOMES = {"click": {"cli"}, "gemmi": {"readers", "model"}, "svgwrite": {"write"}, "pydyf": {"write"}}
