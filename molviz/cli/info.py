@@ -6,8 +6,9 @@ from typing import Any
 import click
 
 from molviz.cli.batch import for_each
-from molviz.cli.options import input_options, input_options_from, load_and_warn
+from molviz.cli.options import input_options, load_and_warn
 from molviz.pipeline.info import info
+from molviz.pipeline.values import input_options_from
 
 
 @click.command("info")

@@ -10,12 +10,13 @@ from typing import Any
 import click
 
 from molviz.cli.batch import for_each
-from molviz.cli.options import input_options, input_options_from, load_and_warn
+from molviz.cli.options import input_options, load_and_warn
 from molviz.cli.progress import Progress
 from molviz.model.radii import TABLES
 from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.measure import PER, Measurement, Part, measurement
 from molviz.pipeline.outputs import stem_of
+from molviz.pipeline.values import input_options_from
 
 Row = dict[str, Any]
 

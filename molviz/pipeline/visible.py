@@ -5,19 +5,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.model.molecule import Molecule
-from molviz.model.radii import DEFAULT
-from molviz.model.spheres import spheres_of
+from molviz.model.spheres import Spheres
+from molviz.pipeline.scene import map_in_view
 from molviz.vectors import cross
 from molviz.visibility.checks import check_map
 from molviz.visibility.half_edges import loop_areas
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.projection import images_of, projection_of
-from molviz.visibility.scene import in_one_view, map_of_scene
-from molviz.visibility.view import View, principal_axes
+from molviz.visibility.view import View
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Visible:
     """The visibility map of n atoms; arcs are rows of ``map``, atoms rows of the molecule.
 
@@ -32,25 +30,24 @@ class Visible:
     right: Ints  # (arcs,)
     depth_jump: Floats  # (arcs,) Å from the nearer to the farther surface; 0 at a crease, inf at a silhouette
 
+    def __repr__(self) -> str:
+        seen = np.count_nonzero(self.area)
+        return f"<Visible: {seen} of {len(self.area)} atoms, {len(self.left)} arcs>"
+
     @property
     def silhouette(self) -> Bools:
         """Which arcs (arcs,) lie between an atom and the background."""
         return np.asarray((self.left == BACKGROUND) | (self.right == BACKGROUND))
 
     def check(self) -> None:
-        """Raise InputError if Euler's formula, the areas or the faces seen beside arcs do not hold."""
+        """Raise InternalError if Euler's formula, the areas or the faces seen beside arcs do not hold."""
         check_map(self.map, self.view)
 
 
-def visible(molecule: Molecule, view: View | None = None, radii: str = DEFAULT, probe: float = 0.0) -> Visible:
-    """Return what is seen of a molecule, by default along its shortest principal axis.
-
-    Raises InputError for an unknown table of radii, or an eye that is not in front of all atoms.
-    """
-    spheres, _ = spheres_of(molecule, radii, probe=probe)
-    view = view or principal_axes(spheres)
-    found, atom = in_one_view(spheres, view, map_of_scene)
-    area, disc = np.zeros(len(molecule)), np.full(len(molecule), np.inf)
+def visible_of(spheres: Spheres, view: View) -> Visible:
+    """Return what is seen of n spheres; raises InputError for an eye that is not in front of all of them."""
+    found, atom = map_in_view(spheres, view)
+    area, disc = np.zeros(len(spheres.radius)), np.full(len(spheres.radius), np.inf)
     inside = found.loops.face != BACKGROUND
     np.add.at(area, atom[found.loops.face[inside]], loop_areas(found.arcs, found.loops)[inside])
     disc[atom] = _disc_areas(found, view)
