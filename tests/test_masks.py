@@ -10,8 +10,9 @@ from molviz.model.spheres import Spheres
 from molviz.picture.compose import DrawOptions
 from molviz.picture.page import Page
 from molviz.picture.style import load_style
-from molviz.pipeline.draw import OutputFormat, ViewOptions, draw, view_of
+from molviz.pipeline.draw import drawing_of
 from molviz.pipeline.inputs import InputOptions, Loaded, load
+from molviz.pipeline.views import ViewOptions, view_of
 from tests.render import needs_ghostscript, render_ps, render_svg
 from tests.zbuffer import interior, mask_labels, zbuffer
 
@@ -22,11 +23,11 @@ SIZE = 500.0  # points along the longer side; two pixels a point
 
 def mask(loaded: Loaded, eye: ViewOptions, suffix: str, method: str) -> tuple[bytes, Spheres, float]:
     """A picking mask, the spheres as seen, and points per ångström."""
-    seen = view_of(loaded, eye).of(loaded.spheres)
+    seen = view_of(loaded.spheres, eye).of(loaded.spheres)
     low, high = bounds(seen)
     scale = SIZE / float((high - low).max())
     look = DrawOptions(load_style("default"), "index", outline=0.0, crease=0.0, page=Page(scale=scale))
-    return draw(loaded, OutputFormat(suffix), look, eye, method, False, lambda stage: None).data, seen, scale
+    return drawing_of(loaded, look, eye, method).to(suffix), seen, scale
 
 
 def bounds(spheres: Spheres) -> tuple[np.ndarray, np.ndarray]:

@@ -5,7 +5,7 @@ import pytest
 
 from molviz.errors import InputError
 from molviz.model.molecule import Molecule
-from molviz.pipeline.visible import visible
+from molviz.pipeline.door import visible
 from molviz.visibility.view import View
 
 
