@@ -5,11 +5,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from molviz.curves import PlaneArcs
 from molviz.picture.page import Page
 from molviz.picture.picture import SPREAD, FillLayer, Picture, StackedLayer, StrokeLayer, TextLayer
 from molviz.picture.style import load_style
 from molviz.pipeline.draw import ViewOptions
+from tests.oracle import random_spheres
 from tests.pages import balls, named, page, residues, shapes
 
 STYLE = load_style("default")
@@ -306,6 +310,37 @@ def test_from_an_eye_nearby_a_ball_is_an_ellipse_on_the_page() -> None:
     edge = np.array([math.tan(math.atan(0.4) + sign * math.asin(1 / math.hypot(10, 4))) for sign in (-1, 1)]) * 10
     assert np.ptp(edge) / 2 * SCALE == pytest.approx(arc.half_extent()[:, 0], rel=1e-3)
     assert (arc.half_extent()[:, 0] > 1.05 * arc.half_extent()[:, 1]).all()
+
+
+def joints(loop: PlaneArcs) -> tuple[np.ndarray, np.ndarray]:
+    """Where each arc of a loop ends and where the one after it, or at the end the first, starts."""
+    return loop.at(loop.start + loop.sweep), np.roll(loop.at(loop.start), -1, axis=0)
+
+
+def same_circle(loop: PlaneArcs) -> np.ndarray:
+    """Which arcs of a loop continue with the next one on their own circle in their own direction."""
+    columns = np.column_stack([loop.c, loop.u, loop.v, np.sign(loop.sweep)])
+    return (columns == np.roll(columns, -1, axis=0)).all(axis=1)
+
+
+@pytest.mark.parametrize("method", ["visible", "painter"])
+@given(st.integers(0, 10**6), st.integers(2, 25), st.sampled_from([None, 25.0]))
+@settings(max_examples=15)
+def test_pens_run_on_and_never_begin_in_the_middle_of_an_arc(
+    method: str, seed: int, count: int, distance: float | None
+) -> None:
+    """Arcs follow each other end to start, those of one circle are one, and whole circles are whole exactly."""
+    spheres = random_spheres(seed, count, 5.0, 3.0)
+    rows = np.column_stack([spheres.center, spheres.radius]).tolist()
+    for top in page(balls(*rows), method, eye=ViewOptions("file", (), distance)).layers:
+        for layer in [top.fills, *top.strokes] if isinstance(top, StackedLayer) else [top]:
+            for loop in (loop for shape in shapes(layer) for loop in shape.loops):
+                end, start = joints(loop)
+                gap = np.linalg.norm(end - start, axis=1)
+                closed = gap[-1] < 1e-6
+                assert (gap[:-1] < 1e-6).all() and (closed or isinstance(layer, StrokeLayer))
+                assert not same_circle(loop)[: len(gap) if closed and len(gap) > 1 else -1].any()
+                assert len(gap) > 1 or not closed or abs(loop.sweep[0]) == 2 * math.pi
 
 
 def signature(picture: Picture) -> list[Any]:
