@@ -24,6 +24,7 @@ def sign_changes(form: Quadratic) -> np.ndarray:
 @example((0.0, 2.0, 0.0, 0.0, 2e-55, 1.0))  # both terms nought to rounding
 @example((0.5, -1.6145356490770436e-12, 0.5, 0.5, 0.5, 0.0))  # the second harmonic is lost in the cubic
 @example((1.0, 1e-11, 1.0, 0.0, 1.0, 0.0))  # the cubic's root at the end of its bracket
+@example((0.0, 0.5, 0.0, 1e-67, 0.0, 1e-09)).xfail(reason="roots at π/2 and 3π/2 are lost")
 @settings(max_examples=400)
 def test_every_sign_change_is_a_root(columns: tuple[float, ...]) -> None:
     form = Quadratic(*(np.array([column]) for column in columns))

@@ -46,7 +46,7 @@ KNOWN = {  # what still goes wrong, with which commands
     "overflow.pdb": (f"{DRAWINGS} eye info", SQUARES),
     "overflow_among_others.pdb": (f"{DRAWINGS} eye", SQUARES),
 }
-PICTURES = ["far_pair", "four_decades", "micro", "nearly_one", "nearly_one_and_far", "planet", "touching_row"]
+PICTURES = ["far_pair", "four_decades", "micro", "nearly_one", "nearly_one_and_far", "touching_row"]
 TWINS = ("nearly_one", "nearly_one_and_far")  # rows 0 and 1 are nearer to each other than drawings displace balls
 
 
