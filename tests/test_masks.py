@@ -37,9 +37,7 @@ def bounds(spheres: Spheres, distance: float | None = None) -> tuple[np.ndarray,
     return lows.min(axis=0), highs.max(axis=0)
 
 
-def wrong_pixels(
-    label: np.ndarray, seen: Spheres, low: np.ndarray, pixel: float, distance: float | None = None
-) -> int:
+def wrong_pixels(label: np.ndarray, seen: Spheres, low: np.ndarray, pixel: float, distance: float | None = None) -> int:
     if distance is None:
         truth = zbuffer(seen, low, pixel, label.shape)
     else:

@@ -201,14 +201,14 @@ def test_nearer_spheres_are_painted_over_the_others(distance: float | None, seed
 
     Of two balls the one with the greater nearness shows at every point of both at which it is not inside the other.
     """
-    spheres, page = scene(seed, distance), np.random.default_rng(seed).uniform(-6, 6, (60, 2))
+    spheres, page = scene(seed, distance, 30), np.random.default_rng(seed).uniform(-6, 6, (300, 2))
     first, second = all_pairs(spheres)
     near = projection(distance).nearness(spheres)
     first, second = first[near[first] > near[second]], second[near[first] > near[second]]
     surface = surfaces(spheres, page, distance)
     both = (surface[:, first] > -np.inf) & (surface[:, second] > -np.inf)
     point, pair = np.nonzero(both & (surface[:, first] < surface[:, second] - 1e-9))
-    ray = np.column_stack([page, np.zeros(60)]) if distance is None else ray_through(page)
+    ray = np.column_stack([page, np.zeros(300)]) if distance is None else ray_through(page)
     unit = ray / np.linalg.norm(ray, axis=1)[:, None]
     high = surface[point, first[pair]][:, None]
     where = ray[point] + high * [0, 0, 1] if distance is None else -high * unit[point]
