@@ -189,7 +189,10 @@ def test_numbers_of_a_drawing_are_those_of_the_summary(tmp_path: Path) -> None:
 def test_every_public_object_is_shown_in_one_line() -> None:
     reading = molviz.read(PROTEIN)
     scene = molviz.Scene(reading.models[0])
-    shown = [reading, reading.models[0], molviz.draw(PROTEIN), molviz.visible(PROTEIN), scene, scene.spheres]
+    shown = [
+        reading, reading.models[0], molviz.draw(PROTEIN), molviz.visible(PROTEIN), scene, scene.spheres, scene.view,
+        scene.map()[0], molviz.measure(PROTEIN),
+    ]  # fmt: skip
     for one in shown:
         assert "\n" not in repr(one) and len(repr(one)) < 120, repr(one)
         assert type(one).__name__ in repr(one)
