@@ -16,11 +16,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from franklin_figures import overlaid
 
 from molviz.discs.grid import UNIT_SQUARE
 from molviz.model.scenes import random_scene
 from molviz.model.spheres import Spheres
-from molviz.picture.disc_picture import WIDTH, DiscLook, disc_picture, whole_circles
+from molviz.picture.disc_picture import WIDTH, DiscLook
 from molviz.pipeline.hidden_discs import HiddenDiscs, hide_discs, picture_of
 from molviz.write import write
 
@@ -101,7 +102,7 @@ def occult_lines(scene: Spheres, folder: Path) -> tuple[float, int]:
     order = np.argsort(-scene.center[:, 2], kind="stable")
     back_to_front = Spheres(scene.center[order], scene.radius[order])
     before, after = folder / "before.svg", folder / "after.svg"
-    before.write_bytes(write(disc_picture(back_to_front, whole_circles(len(order)), None, DiscLook()), ".svg"))
+    before.write_bytes(write(overlaid(back_to_front, DiscLook()), ".svg"))
     command = [VPYPE or "vpype", "read", str(before), "occult", "write", str(after)]
     seconds = timed(lambda: subprocess.run(command, check=True))
     return seconds, after.stat().st_size

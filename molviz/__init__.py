@@ -1,34 +1,59 @@
 """Exact vector drawings and exact numbers of anything made of spheres.
 
+    import molviz
+
+    drawing = molviz.draw("1abc.pdb", color_by="chain")   # a notebook shows it
+    drawing.save("1abc.pdf")                              # .svg .svgz .ps .eps .pdf .hpgl .json
+    molviz.measure("1abc.pdb", probe=1.4).area.sum()      # Å²
+
 A file becomes a ``Molecule`` (``read``), a molecule spheres, spheres a union boundary, the boundary what the eye
-sees (``visible``) or what it measures (``measure``), and what the eye sees a picture in one of many formats.
+sees (``visible``, ``Scene``) or what it measures (``measure``), and what the eye sees a picture in one of many formats
+(``draw``). Each of them takes a path, a molecule, arrays of centers and radii, or an object of ASE, gemmi, biotite,
+MDAnalysis or RDKit. What is wrong raises ``InputError``, a ValueError; what is odd is a warning.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
+TYPE_CHECKING = False  # as typing's: importing that costs more than all else here
 if TYPE_CHECKING:
-    from molviz.errors import InputError
+    from molviz.errors import InputError, InternalError
+    from molviz.geometry.measure import Measure
     from molviz.model.molecule import Molecule
-    from molviz.pipeline.measure import measure
-    from molviz.pipeline.visible import Visible, visible
+    from molviz.pipeline.door import draw, measure, visible
+    from molviz.pipeline.draw import Drawing
+    from molviz.pipeline.scene import Scene
+    from molviz.pipeline.visible import Visible
     from molviz.readers import Reading, read
     from molviz.visibility.view import View
 
 _HOMES = {  # imported when first used: start-up time counts
+    "Drawing": "molviz.pipeline.draw",
     "InputError": "molviz.errors",
+    "InternalError": "molviz.errors",
+    "Measure": "molviz.geometry.measure",
     "Molecule": "molviz.model.molecule",
     "Reading": "molviz.readers",
+    "Scene": "molviz.pipeline.scene",
     "View": "molviz.visibility.view",
     "Visible": "molviz.pipeline.visible",
-    "measure": "molviz.pipeline.measure",
+    "draw": "molviz.pipeline.door",
+    "measure": "molviz.pipeline.door",
     "read": "molviz.readers",
-    "visible": "molviz.pipeline.visible",
+    "visible": "molviz.pipeline.door",
 }
-__all__ = ["InputError", "Molecule", "Reading", "View", "Visible", "measure", "read", "visible"]
+__all__ = [
+    "Drawing", "InputError", "InternalError", "Measure", "Molecule", "Reading", "Scene", "View", "Visible",
+    "draw", "measure", "read", "visible",
+]  # fmt: skip
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_HOMES[name]), name)
+    from importlib import import_module
+
+    value: object = getattr(import_module(_HOMES[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return list(__all__)

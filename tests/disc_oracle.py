@@ -16,6 +16,8 @@ def is_nearer(discs: list[Disc], one: int, other: int) -> bool:
 
 def hidden_interval(far: Disc, near: Disc) -> tuple[float, float] | None:
     """Start and sweep of what the nearer disc hides of the farther perimeter."""
+    if math.hypot(near[0] - far[0], near[1] - far[1]) > (1 + 1e-9) * (near[3] + far[3]):
+        return None  # so far apart that rounding cannot matter
     x, y = Fraction(near[0]) - Fraction(far[0]), Fraction(near[1]) - Fraction(far[1])
     r, n = Fraction(far[3]), Fraction(near[3])
     squared = x * x + y * y

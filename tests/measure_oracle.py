@@ -32,8 +32,9 @@ class Rim(NamedTuple):
     a: np.ndarray
     b: np.ndarray
 
-    def at(self, angle: float) -> np.ndarray:
-        return self.center + self.a * np.cos(angle) + self.b * np.sin(angle)
+    def at(self, angle: float | np.ndarray) -> np.ndarray:
+        """Points (…, 3) at angles (…)."""
+        return self.center + np.multiply.outer(np.cos(angle), self.a) + np.multiply.outer(np.sin(angle), self.b)
 
 
 def rim(spheres: Spheres, i: int, j: int) -> Rim | None:
@@ -53,7 +54,8 @@ def free_arcs(spheres: Spheres, i: int, j: int) -> list[Arc]:
     circle = rim(spheres, i, j)
     if circle is None:
         return []
-    others = np.setdiff1d(np.arange(len(spheres.radius)), [i, j])
+    numbers = np.arange(len(spheres.radius))
+    others = numbers[(numbers != i) & (numbers != j)]
     toward = spheres.center[others] - circle.center
     level = (toward**2).sum(1) + circle.a @ circle.a - spheres.radius[others] ** 2
     a, b = 2 * toward @ circle.a, 2 * toward @ circle.b
@@ -66,7 +68,7 @@ def free_arcs(spheres: Spheres, i: int, j: int) -> list[Arc]:
     ends, entered = ends[order], entered[order]
     starts = ends if len(ends) else np.zeros(1)
     sweeps = np.diff(np.append(starts, starts[0] + TURN))
-    points = np.array([circle.at(start + sweep / 2) for start, sweep in zip(starts, sweeps, strict=True)])
+    points = circle.at(starts + sweeps / 2)
     gap = np.linalg.norm(points[:, None] - spheres.center[others], axis=2) - spheres.radius[others]
     after = np.roll(entered, -1) if len(ends) else np.full(1, -1)
     free = np.flatnonzero(np.all(gap > 0, axis=1))
@@ -83,7 +85,7 @@ def sampled_fraction(spheres: Spheres, i: int, count: int = 500) -> float:
     z = 1 - (2 * np.arange(count) + 1) / count
     turn = np.arange(count) * np.pi * (3 - 5**0.5)
     direction = np.stack([np.sqrt(1 - z * z) * np.cos(turn), np.sqrt(1 - z * z) * np.sin(turn), z], axis=1)
-    others = np.setdiff1d(np.arange(len(spheres.radius)), [i])
+    others = np.delete(np.arange(len(spheres.radius)), i)
     points = spheres.center[i] + spheres.radius[i] * direction
     gap = np.linalg.norm(points[:, None] - spheres.center[others], axis=2) - spheres.radius[others]
     return float(np.mean(np.all(gap >= 0, axis=1)))

@@ -32,7 +32,13 @@ def heights(spheres: Spheres, page: np.ndarray) -> np.ndarray:
 
 
 def winding(x: np.ndarray, y: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Winding number of the closed polygon x, y (k,) about each point (m, 2)."""
-    angle = np.arctan2(y - points[:, 1:], x - points[:, :1])
-    step = np.mod(np.diff(np.append(angle, angle[:, :1], axis=1), axis=1) + np.pi, 2 * np.pi) - np.pi
-    return np.round(step.sum(axis=1) / (2 * np.pi)).astype(int)
+    """Winding number of the closed polygon x, y (k,) about each point (m, 2): crossings of the ray to its right."""
+    px, py = points[:, :1], points[:, 1:]
+    next_x, next_y = np.roll(x, -1), np.roll(y, -1)
+    below = y <= py
+    crosses = below != (next_y <= py)
+    point, edge = np.nonzero(crosses)
+    dx, dy = next_x[edge] - x[edge], next_y[edge] - y[edge]
+    right = (x[edge] - px[point, 0]) * np.abs(dy) + dx * np.sign(dy) * (py[point, 0] - y[edge]) > 0
+    turn = np.where(below[point, edge], 1, -1)
+    return np.bincount(point[right], turn[right], len(points)).astype(int)

@@ -43,7 +43,7 @@ def test_every_format_is_written_twice_the_same(tmp_path: Path, method: str, suf
 @pytest.mark.parametrize("suffix", [".json", ".hpgl"])
 def test_what_cannot_be_painted_is_refused(tmp_path: Path, suffix: str) -> None:
     result = run("draw", CAFFEINE, "--method", "painter", "-o", str(tmp_path / f"x{suffix}"))
-    assert result.exit_code == 1 and "--method visible" in result.stderr
+    assert result.exit_code == 1 and "expected method visible" in result.stderr
 
 
 def test_the_summary_is_one_line_on_standard_error(tmp_path: Path) -> None:
@@ -207,7 +207,7 @@ def test_a_model_number_in_other_digits_is_no_number(tmp_path: Path) -> None:
 
 
 def test_discs_of_several_inputs_do_not_overwrite_each_other(tmp_path: Path) -> None:
-    words = ["hidden-lines", CAFFEINE, PROTEIN, "--model", "discs", "-o", str(tmp_path / "one.svg")]
+    words = ["hidden-lines", CAFFEINE, PROTEIN, "--as", "discs", "-o", str(tmp_path / "one.svg")]
     assert run(*words).exit_code == 2
     assert not list(tmp_path.iterdir())
 
@@ -215,7 +215,7 @@ def test_discs_of_several_inputs_do_not_overwrite_each_other(tmp_path: Path) -> 
 def test_discs_show_one_model_and_json_is_of_discs(tmp_path: Path) -> None:
     two = tmp_path / "two.xyz"
     two.write_text("1\n\nC 0 0 0\n" * 2, encoding="utf-8")
-    result = run("hidden-lines", str(two), "--model", "discs", "--model", "all", "--json")
+    result = run("hidden-lines", str(two), "--as", "discs", "--model", "all", "--json")
     assert result.exit_code == 1 and "expected --model NUMBER" in result.stderr
     assert run("hidden-lines", CAFFEINE, "--json", "-o", str(tmp_path / "x.svg")).exit_code == 2
 

@@ -24,6 +24,8 @@ def sign_changes(form: Quadratic) -> np.ndarray:
 @example((0.0, 2.0, 0.0, 0.0, 2e-55, 1.0))  # both terms nought to rounding
 @example((0.5, -1.6145356490770436e-12, 0.5, 0.5, 0.5, 0.0))  # the second harmonic is lost in the cubic
 @example((1.0, 1e-11, 1.0, 0.0, 1.0, 0.0))  # the cubic's root at the end of its bracket
+@example((0.0, 0.5, 0.0, 1e-67, 0.0, 1e-09))  # a first harmonic whose square is no number
+@example((0.0, 1.0, 0.001953125, 3.2114338103709774e-189, 0.0, 0.0))
 @settings(max_examples=400)
 def test_every_sign_change_is_a_root(columns: tuple[float, ...]) -> None:
     form = Quadratic(*(np.array([column]) for column in columns))

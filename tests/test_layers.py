@@ -10,12 +10,13 @@ COMMON = {"arrays", "curves", "errors", "toml", "vectors"}
 STAGES = {  # what each stage may import, besides itself and COMMON
     "model": set(),
     "readers": {"model"},
+    "adapters": {"model", "readers"},
     "geometry": {"model"},
     "visibility": {"model", "geometry"},
     "discs": {"model", "geometry"},
     "picture": {"model", "geometry", "visibility", "discs"},
     "write": {"picture"},
-    "pipeline": {"model", "readers", "geometry", "visibility", "discs", "picture", "write"},
+    "pipeline": {"model", "readers", "adapters", "geometry", "visibility", "discs", "picture", "write"},
     "cli": {"model", "pipeline", "picture"},
 }
 HOMES = {"click": {"cli"}, "gemmi": {"readers", "model"}, "svgwrite": {"write"}, "pydyf": {"write"}}

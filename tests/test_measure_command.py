@@ -1,4 +1,4 @@
-"""``molviz measure`` and ``molviz.pipeline.measure``: what adds up, what is exposed, how it is written."""
+"""``molviz measure`` and ``molviz.measure``: what adds up, what is exposed, how it is written."""
 
 import csv
 import io
@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 
 from molviz.cli.measure import measure_command
 from molviz.model.molecule import Molecule
-from molviz.pipeline.measure import measure
+from molviz.pipeline.door import measure
 
 LINE = "ATOM  {:5d}  {:<3s} {:3s} {:1s}{:4d}    {:8.3f}{:8.3f}{:8.3f}  1.00 10.00          {:>2s}\n"
 ATOMS = [

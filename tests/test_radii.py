@@ -68,7 +68,7 @@ def test_radii_of_the_file_go_first() -> None:
 
 
 def test_scale_and_probe() -> None:
-    spheres, _ = spheres_of(molecule("C"), scale=0.5, probe=1.4)
+    spheres = spheres_of(molecule("C"))[0].enlarged(0.5, 1.4)
     assert spheres.radius.tolist() == [0.5 * 1.7 + 1.4]
 
 

@@ -27,6 +27,45 @@ def zbuffer(spheres: Spheres, low: np.ndarray, pixel: float, shape: tuple[int, i
     return label
 
 
+def entry(center: np.ndarray, radius: np.ndarray, ray: np.ndarray) -> np.ndarray:
+    """How far from an eye at the origin rays (…, 3) of any length enter a ball; inf where they pass it by."""
+    unit = ray / np.linalg.norm(ray, axis=-1, keepdims=True)
+    along = (unit * center).sum(-1)
+    square = radius**2 - ((unit * along[..., None] - center) ** 2).sum(-1)
+    return np.where((square > 0) & (along > 0), along - np.sqrt(np.maximum(square, 0)), np.inf)
+
+
+def image_boxes(spheres: Spheres, distance: float) -> tuple[np.ndarray, np.ndarray]:
+    """Lower left and upper right corners (n, 2) of the balls' images on a page through the origin of the view.
+
+    In the plane of the eye and one axis of the page a ball is seen from ``φ − ψ`` to ``φ + ψ``: its disc there, tan φ
+    = x / depth and sin ψ = r / √(x² + depth²).
+    """
+    flat, depth = spheres.center[:, :2], (distance - spheres.center[:, 2])[:, None]
+    middle, half = np.arctan2(flat, depth), np.arcsin(spheres.radius[:, None] / np.hypot(flat, depth))
+    return distance * np.tan(middle - half), distance * np.tan(middle + half)
+
+
+def central_zbuffer(
+    spheres: Spheres, low: np.ndarray, pixel: float, shape: tuple[int, int], distance: float
+) -> np.ndarray:
+    """The same from an eye at ``distance`` up the z axis: one ray a pixel, through the page at z = 0."""
+    height, width = shape
+    depth, label = np.full(shape, np.inf), np.full(shape, -1)
+    x = low[0] + (np.arange(width) + 0.5) * pixel
+    y = low[1] + (height - np.arange(height) - 0.5) * pixel
+    for row, (corner, opposite) in enumerate(zip(*image_boxes(spheres, distance), strict=True)):
+        columns = np.flatnonzero((x > corner[0]) & (x < opposite[0]))
+        lines = np.flatnonzero((y > corner[1]) & (y < opposite[1]))
+        ray = np.stack([*np.meshgrid(x[columns], y[lines]), np.full((len(lines), len(columns)), -distance)], axis=-1)
+        far = entry(spheres.center[row] - [0, 0, distance], spheres.radius[row], ray)
+        window = np.ix_(lines, columns)
+        nearer = far < depth[window]
+        depth[window] = np.where(nearer, far, depth[window])
+        label[window] = np.where(nearer, row, label[window])
+    return label
+
+
 def interior(label: np.ndarray) -> np.ndarray:
     """Pixels whose eight neighbours carry the same label: farther than a pixel from any boundary."""
     inner = np.zeros(label.shape, dtype=bool)

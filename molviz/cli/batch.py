@@ -5,17 +5,25 @@ from collections.abc import Callable, Sequence
 
 import click
 
+from molviz.cli import failures
 from molviz.errors import InputError
+
+PASSED_ON = (click.exceptions.Exit, click.ClickException, click.Abort, OSError, MemoryError)
 
 
 def for_each(sources: Sequence[str], do: Callable[[str], None]) -> None:
-    """Do something for every input; failures are reported, and make the exit status 1 at the end."""
-    failed = False
+    """Do something for every input; failures are reported, and the exit status at the end is that of the worst."""
+    status = 0
     for source in sources:
         try:
             do(source)
         except InputError as wrong:
             click.echo(f"molviz: {wrong}", err=True)
-            failed = True
-    if failed:
-        sys.exit(1)
+            status = max(status, 1)
+        except PASSED_ON:
+            raise
+        except Exception as failure:
+            click.echo(f"{failures.line_about(failure)} ({source})", err=True)
+            status = failures.STATUS
+    if status:
+        sys.exit(status)

@@ -7,36 +7,29 @@ from typing import Any
 import click
 
 from molviz.cli.batch import for_each
-from molviz.cli.options import (
-    applied,
-    eye_options,
-    input_options,
-    input_options_from,
-    load_and_warn,
-    only_model,
-    page_options,
-)
+from molviz.cli.options import applied, eye_options, input_options, load_and_warn, page_options, shared
 from molviz.cli.progress import Progress
-from molviz.picture.coloring import CONTINUOUS, SCHEMES
+from molviz.errors import InputError
 from molviz.picture.compose import DrawOptions
-from molviz.picture.page import Page
-from molviz.picture.style import STYLES, load_style
-from molviz.pipeline.draw import Drawing, OutputFormat, ViewOptions, draw, suffixes
-from molviz.pipeline.inputs import InputOptions
+from molviz.picture.style import STYLES
+from molviz.pipeline.draw import Drawing, draw_options_from, drawing_of, suffixes
+from molviz.pipeline.inputs import InputOptions, only_model
 from molviz.pipeline.outputs import save, target_of
+from molviz.pipeline.values import input_options_from, legend_from, view_options_from
+from molviz.pipeline.views import ViewOptions
 
-STAGES = 4  # reading, map, picture, writing
+STAGES = 3  # reading, what is seen, writing
 
 output_options = applied(
     click.option("-o", "--output", metavar="FILE", help="Its suffix is the format; many: a folder or {stem}."),
     click.option("--to", metavar="FORMAT", help="Format (svg, ps, …) where the output is - or a folder."),
 )
 drawing_options = applied(
-    click.option("--method", type=click.Choice(["visible", "painter"]), default="visible", show_default=True),
-    click.option("--check", is_flag=True, help="Verify the invariants of the visibility map first."),
-    click.option("--style", default="flat", show_default=True, metavar="NAME|FILE.toml", help=f"One of {STYLES}."),
-    click.option("--color-by", type=click.Choice([*SCHEMES, *CONTINUOUS]), default="element", show_default=True),
-    click.option("--legend", is_flag=True, help="A legend for colours by bfactor or exposure."),
+    shared("method", show_default=True),
+    shared("check", help="Verify the invariants of the visibility map first."),
+    shared("style", show_default=True, metavar="NAME|FILE.toml", help=f"One of {STYLES}."),
+    shared("color_by", show_default=True),
+    shared("legend", help="A legend for colours by bfactor or exposure."),
     eye_options,
     page_options,
 )
@@ -50,7 +43,7 @@ plotter_options = applied(
 @click.argument("inputs", nargs=-1, required=True, metavar="INPUT...")
 @output_options
 @drawing_options
-@click.option("--fill", type=click.Choice(["flat", "none"]), default="flat", show_default=True)
+@shared("fill", show_default=True)
 @plotter_options
 @input_options
 def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
@@ -67,15 +60,23 @@ def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
 
 def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     """Draw every input with the options of ``draw``."""
+    refuse_idle_legend(options)
     wanted, look, eye = input_options_from(options), draw_options_from(options), view_options_from(options)
-    form = OutputFormat(suffix_of(options["output"], options["to"]), options["plotter"], options["paper"])
-    output = options["output"] or "-"
-    refuse_shared_targets(inputs, output, form.suffix)
+    suffix, output = suffix_of(options["output"], options["to"]), options["output"] or "-"
+    refuse_shared_targets(inputs, output, suffix)
 
     def one(source: str) -> None:
-        _draw_one(source, target_of(source, output, form.suffix), form, wanted, look, eye, options)
+        _draw_one(source, target_of(source, output, suffix), suffix, wanted, look, eye, options)
 
     for_each(inputs, one)
+
+
+def refuse_idle_legend(options: dict[str, Any]) -> None:
+    """Raise UsageError where a legend has nothing to explain."""
+    try:
+        legend_from(options)
+    except InputError as wrong:
+        raise click.UsageError(f"--{wrong}") from None
 
 
 def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str) -> None:
@@ -87,7 +88,7 @@ def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str) -> 
 def _draw_one(
     source: str,
     target: str,
-    form: OutputFormat,
+    suffix: str,
     wanted: InputOptions,
     look: DrawOptions,
     eye: ViewOptions,
@@ -95,21 +96,23 @@ def _draw_one(
 ) -> None:
     began, progress = time.monotonic(), Progress(STAGES)
     progress("reading")
-    loaded = load_and_warn(source, wanted, options["quiet"], options["strict"])
-    one = only_model(loaded)
+    one = only_model(load_and_warn(source, wanted, options["quiet"], options["strict"]))
     try:
-        drawing = draw(one, form, look, eye, options["method"], options["check"], progress)
+        progress("what is seen")
+        drawing = drawing_of(one, look, eye, options["method"], options["check"])
+        progress("writing")
+        data = drawing.to(suffix, options["plotter"], options["paper"])
     finally:
         progress.close()
-    save(target, drawing.data)
+    save(target, data)
     if not options["quiet"]:
-        click.echo(_summary(source, target, drawing, time.monotonic() - began), err=True)
+        click.echo(_summary(source, target, drawing, len(data), time.monotonic() - began), err=True)
 
 
-def _summary(source: str, target: str, drawing: Drawing, seconds: float) -> str:
+def _summary(source: str, target: str, drawing: Drawing, size: int, seconds: float) -> str:
     return (
-        f"{source} -> {target}: {drawing.atoms} atoms read, {drawing.visible} visible, {drawing.arcs} arcs, "
-        f"{len(drawing.data)} bytes, {seconds:.2f} s"
+        f"{source} -> {target}: {drawing.atoms_read} atoms read, {drawing.atoms_drawn} drawn, "
+        f"{drawing.visible} visible, {drawing.arcs} arcs, {size} bytes, {seconds:.2f} s"
     )
 
 
@@ -125,29 +128,3 @@ def suffix_of(output: str | None, to: str | None) -> str:
     if not output and not to:
         raise click.UsageError(f"nowhere to draw to; expected -o FILE with one of the suffixes {names}")
     raise click.UsageError(f"no format {suffix!r}; expected one of {names} (with --to where standard output has none)")
-
-
-def draw_options_from(options: dict[str, Any]) -> DrawOptions:
-    """Take the look out of a command's keyword arguments."""
-    if options["legend"] and options["color_by"] not in CONTINUOUS:
-        raise click.UsageError(f"--legend explains numbers; expected --color-by {' or '.join(CONTINUOUS)}")
-    return DrawOptions(
-        style=load_style(options["style"]),
-        color_by=options["color_by"],
-        fill=options["fill"],
-        outline=options["outline"],
-        crease=options["crease"],
-        background=options["background"],
-        page=page_from(options),
-        legend=options["legend"],
-    )
-
-
-def page_from(options: dict[str, Any]) -> Page:
-    """Take the page out of a command's keyword arguments."""
-    return Page(options["page"], options["width"], options["scale"], options["margin"])
-
-
-def view_options_from(options: dict[str, Any]) -> ViewOptions:
-    """Take the view out of a command's keyword arguments."""
-    return ViewOptions(options["orient"], options["rotate"], options["perspective"])

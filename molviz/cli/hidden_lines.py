@@ -13,17 +13,14 @@ from molviz.cli.batch import for_each
 from molviz.cli.draw import (
     drawing_options,
     output_options,
-    page_from,
     plotter_options,
     refuse_shared_targets,
     run_drawings,
     suffix_of,
-    view_options_from,
 )
-from molviz.cli.options import POSITIVE, applied, input_options_from, load_and_warn, only_model, part_options
+from molviz.cli.options import POSITIVE, applied, input_options, load_and_warn
 from molviz.cli.progress import Progress
 from molviz.picture.disc_picture import WIDTH, DiscLook
-from molviz.pipeline.draw import ViewOptions
 from molviz.pipeline.hidden_discs import (
     HiddenDiscs,
     drawn,
@@ -32,8 +29,10 @@ from molviz.pipeline.hidden_discs import (
     random_discs,
     statistics_table,
 )
-from molviz.pipeline.inputs import InputOptions
+from molviz.pipeline.inputs import InputOptions, only_model
 from molviz.pipeline.outputs import save, target_of
+from molviz.pipeline.values import input_options_from, page_from, view_options_from
+from molviz.pipeline.views import ViewOptions
 
 STAGES = 2  # hidden lines, writing
 LARGEST_GRID = 16384  # cells a side: more would not fit into memory
@@ -49,12 +48,6 @@ scene_options = applied(
     click.option("--shrink", is_flag=True, help="Smaller spheres farther back: his perspective."),
     click.option("--grid", type=click.IntRange(1, LARGEST_GRID), metavar="G", help="Cells a side (default: his)."),
 )
-model_options = applied(
-    click.option("--model", "models", multiple=True, metavar="fused|discs|N", help="Of a file: how, and which model."),
-    click.option("--frame", metavar="N", help="Model or frame by number."),
-)
-
-
 @click.command("hidden-lines")
 @click.argument("inputs", nargs=-1, metavar="[INPUT]...")
 @scene_options
@@ -62,16 +55,18 @@ model_options = applied(
 @click.option("--fill", is_flag=False, flag_value="flat", default="none", help="Paint the visible regions too.")
 @click.option("--json", "as_json", is_flag=True, help="Print the statistics as one JSON object.")
 @drawing_options
+@click.option(
+    "--as", "kind", type=click.Choice(KINDS), default="fused", show_default=True, help="A molecule's atoms as these."
+)
 @plotter_options
-@model_options
-@part_options
+@input_options
 def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
     """Remove the hidden lines of spheres, exactly. Formats: .ps .eps .svg .svgz .pdf .hpgl .json.
 
     \b
     Examples:
       molviz hidden-lines caffeine.xyz -o caffeine.svg       a molecule as fused spheres
-      molviz hidden-lines 1a8o.pdb --model discs -o it.ps    its atoms as discs
+      molviz hidden-lines 1a8o.pdb --as discs -o it.ps       its atoms as discs
       molviz hidden-lines --random 10000                     the statistics of Franklin's Fig. 8
       molviz hidden-lines --random 1000 -o gas.svg           the drawing
       molviz hidden-lines --text CSE -o cse.hpgl             the same for a pen plotter
@@ -80,24 +75,14 @@ def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
         raise click.UsageError(f"no fill {options['fill']!r}; expected flat or none")
     if sum([bool(inputs), options["count"] is not None, options["text"] is not None]) != 1:
         raise click.UsageError("nothing to draw, or two things; expected INPUT, --random or --text")
-    kind = _kind(options)
     if not inputs:
         _discs(options["output"], partial(_scene, options), options)
-    elif kind == "discs":
+    elif options["kind"] == "discs":
         _molecules_as_discs(inputs, options)
     elif options["as_json"]:
-        raise click.UsageError("--json tells the statistics of discs; expected --model discs, --random or --text")
+        raise click.UsageError("--json tells the statistics of discs; expected --as discs, --random or --text")
     else:
         run_drawings(inputs, options)
-
-
-def _kind(options: dict[str, Any]) -> str:
-    """Take how a molecule is to be drawn out of the options, and leave the number of its model there."""
-    models = options.pop("models")
-    kinds = [word for word in models if word in KINDS]
-    numbers = [word for word in (*models, options.pop("frame")) if word and word not in KINDS]
-    options["model"] = numbers[-1] if numbers else "1"
-    return kinds[-1] if kinds else KINDS[0]
 
 
 def _molecules_as_discs(inputs: tuple[str, ...], options: dict[str, Any]) -> None:

@@ -6,8 +6,9 @@ from typing import Any
 import click
 
 from molviz.cli.batch import for_each
-from molviz.cli.options import input_options, input_options_from, load_and_warn
+from molviz.cli.options import input_options, load_and_warn
 from molviz.pipeline.info import info
+from molviz.pipeline.values import input_options_from
 
 
 @click.command("info")
@@ -28,10 +29,10 @@ def info_command(inputs: tuple[str, ...], as_json: bool, **options: Any) -> None
     results: list[dict[str, Any]] = []
 
     def one(source: str) -> None:
-        found = [info(loaded) for loaded in load_and_warn(source, wanted, options["quiet"], options["strict"])]
-        results.extend(found)
+        told = [info(loaded) for loaded in load_and_warn(source, wanted, options["quiet"], options["strict"])]
+        results.extend(told)
         if not as_json:
-            click.echo("\n\n".join(map(_as_text, found)))
+            click.echo("\n\n".join(map(_as_text, told)))
 
     try:
         for_each(inputs, one)

@@ -10,12 +10,13 @@ from typing import Any
 import click
 
 from molviz.cli.batch import for_each
-from molviz.cli.options import input_options, input_options_from, load_and_warn
+from molviz.cli.options import input_options, load_and_warn
 from molviz.cli.progress import Progress
 from molviz.model.radii import TABLES
 from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.measure import PER, Measurement, Part, measurement
 from molviz.pipeline.outputs import stem_of
+from molviz.pipeline.values import input_options_from
 
 Row = dict[str, Any]
 
@@ -42,7 +43,7 @@ def measure_command(
     if as_json and as_csv:
         raise click.UsageError("--json and --csv exclude each other")
     wanted = input_options_from(options)
-    found: list[Measurement] = []
+    measured: list[Measurement] = []
 
     progress = Progress(2 * len(inputs))
 
@@ -50,23 +51,23 @@ def measure_command(
         progress(f"reading {stem_of(source)}")
         models = load_and_warn(source, replace(wanted, select=None), quiet, strict)
         progress(f"measuring {stem_of(source)}")
-        found.extend(measurement(loaded, wanted.select, per) for loaded in models)
+        measured.extend(measurement(loaded, wanted.select, per) for loaded in models)
 
     try:
         for_each(inputs, one)
     finally:
         progress.close()
-        _tell(found, wanted, per, as_json, as_csv)
+        _tell(measured, wanted, per, as_json, as_csv)
 
 
-def _tell(found: list[Measurement], wanted: InputOptions, per: str | None, as_json: bool, as_csv: bool) -> None:
+def _tell(measured: list[Measurement], wanted: InputOptions, per: str | None, as_json: bool, as_csv: bool) -> None:
     if as_json:
-        results = [_totals(one, wanted) | {"per": [_part(part) for part in one.parts]} for one in found]
+        results = [_totals(one, wanted) | {"per": [_part(part) for part in one.parts]} for one in measured]
         click.echo(json.dumps({"results": results}, ensure_ascii=False))
     elif as_csv:
-        _write_csv(_rows(found, wanted, per))
-    elif found:
-        click.echo("\n".join(_table(found, wanted)))
+        _write_csv(_rows(measured, wanted, per))
+    elif measured:
+        click.echo("\n".join(_table(measured, wanted)))
 
 
 def _totals(one: Measurement, wanted: InputOptions) -> Row:
@@ -82,9 +83,9 @@ def _split(area: float, exposed: float | None) -> Row:
     return {} if exposed is None else {"exposed": exposed, "buried": area - exposed}
 
 
-def _rows(found: Iterable[Measurement], wanted: InputOptions, per: str | None) -> Iterator[Row]:
+def _rows(measured: Iterable[Measurement], wanted: InputOptions, per: str | None) -> Iterator[Row]:
     """One row per model, or per atom, residue or chain of each."""
-    for one in found:
+    for one in measured:
         if per is None:
             yield _totals(one, wanted)
         for part in one.parts:
@@ -100,11 +101,11 @@ def _write_csv(rows: Iterable[Row]) -> None:
         writer.writerow(row)
 
 
-def _table(found: list[Measurement], wanted: InputOptions) -> Iterator[str]:
+def _table(measured: list[Measurement], wanted: InputOptions) -> Iterator[str]:
     title = f" ({TABLES[wanted.radii]})" if wanted.radii in TABLES else ""
     yield f"radii {wanted.radii}{title}, probe {wanted.probe:g} Å; areas in Å², volumes in Å³"
-    width = max(len(one.file) for one in found)
-    for one in found:
+    width = max(len(one.file) for one in measured)
+    for one in measured:
         yield (
             f"{one.file:<{width}}  model {one.model}  {one.atoms} atoms  area {one.area:.3f}  "
             f"volume {one.volume:.3f}{_split_text(one.area, one.exposed)}"

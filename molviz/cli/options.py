@@ -1,21 +1,26 @@
 """Options that several commands share: click's words become values of the pipeline."""
 
-import math
 import sys
 from collections.abc import Callable
+from inspect import signature
 from typing import Any, TypeAlias
 
 import click
 
 from molviz.errors import InputError
-from molviz.model.radii import DEFAULT
-from molviz.picture.colors import parse_color
-from molviz.picture.page import PAPER, parse_length
-from molviz.picture.picture import Color
+from molviz.pipeline import door
 from molviz.pipeline.inputs import FORMATS, InputOptions, Loaded, load
+from molviz.pipeline.values import (
+    CHOICES,
+    parse_background,
+    parse_margin,
+    parse_not_negative,
+    parse_positive,
+    parse_rotation,
+    parse_width,
+)
 
 Decorator: TypeAlias = Callable[[Callable[..., Any]], Any]
-SMALLEST, LARGEST = 1e-6, 1e9  # of any number given as an option: what lies outside has no picture in doubles
 
 
 class Parsed(click.ParamType[Any]):
@@ -34,38 +39,26 @@ class Parsed(click.ParamType[Any]):
             self.fail(str(wrong), param, ctx)
 
 
-class Number(click.FloatRange):
-    """A finite number in a range; click alone lets ``nan`` pass, which is never out of range."""
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return the number, or fail with click's usage error."""
-        number: float = super().convert(value, param, ctx)
-        if math.isnan(number):
-            self.fail(f"{value!r} is not a number", param, ctx)
-        return number
-
-
-def parse_rotation(text: str) -> tuple[str, float]:
-    """Return axis and degrees of ``x,30``."""
-    axis, comma, degrees = text.partition(",")
-    if axis.strip().lower() not in ("x", "y", "z") or not comma:
-        raise ValueError(f"{text!r} is not a rotation; expected an axis and degrees, for example x,30")
-    turn = float(degrees)
-    if not abs(turn) < LARGEST:
-        raise ValueError(f"{degrees!r} are no degrees; expected a number of at most {LARGEST:g}")
-    return axis.strip().lower(), turn
-
-
-def parse_background(text: str) -> Color | None:
-    """Return a colour, or None for ``none``."""
-    return None if text.lower() == "none" else parse_color(text)
-
-
-LENGTH = Parsed("length", parse_length)
+LENGTH = Parsed("length", parse_width)
+MARGIN = Parsed("length", parse_margin)
 ROTATION = Parsed("axis,degrees", parse_rotation)
 BACKGROUND = Parsed("color", parse_background)
-POSITIVE = Number(min=SMALLEST, max=LARGEST)
-NOT_NEGATIVE = Number(min=0, max=LARGEST)
+POSITIVE = Parsed("number", parse_positive)
+NOT_NEGATIVE = Parsed("number", parse_not_negative)
+USUAL = {name: parameter.default for name, parameter in signature(door.draw).parameters.items()}
+
+
+def shared(name: str, **more: Any) -> Decorator:
+    """Return a click option that ``molviz.draw`` has as a keyword argument, with the same default.
+
+    It is a flag where that default is False, and a choice where there are ``CHOICES``.
+    """
+    flag = f"--{name.replace('_', '-')}"
+    if USUAL[name] is False:
+        return click.option(flag, is_flag=True, default=False, **more)
+    if name in CHOICES:
+        more["type"] = click.Choice(CHOICES[name])
+    return click.option(flag, default=USUAL[name], **more)
 
 
 def applied(*options: Decorator) -> Decorator:
@@ -79,58 +72,40 @@ def applied(*options: Decorator) -> Decorator:
     return decorate
 
 
-model_option = click.option("--model", "--frame", "model", default="1", show_default=True, help="Model or frame.")
-part_options = applied(
-    click.option("--assembly", metavar="ID", help="Biological assembly, from the file's own operators."),
-    click.option("--select", metavar="EXPR", help="Keep part of it, e.g. 'chain A and not water'."),
-    click.option("--no-water", is_flag=True, help="Leave out water."),
-    click.option("--no-hydrogens", is_flag=True, help="Leave out hydrogen and deuterium."),
-    click.option("--chain", metavar="A,B", help="Keep these chains."),
-    click.option("--radii", default=DEFAULT, show_default=True, metavar="NAME|FILE", help="Table of radii."),
-    click.option("--scale-radii", type=POSITIVE, default=1.0, metavar="X", help="Multiply all radii."),
-    click.option("--probe", type=NOT_NEGATIVE, default=0.0, metavar="R", help="Add to all radii, in Å."),
+input_options = applied(
+    click.option(
+        "--model", "--frame", "model", type=str, default=USUAL["model"], show_default=True, help="Model or frame."
+    ),
+    shared("assembly", metavar="ID", help="Biological assembly, from the file's own operators."),
+    shared("select", metavar="EXPR", help="Keep part of it, e.g. 'chain A and not water'."),
+    shared("no_water", help="Leave out water."),
+    shared("no_hydrogens", help="Leave out hydrogen and deuterium."),
+    shared("chain", metavar="A,B", help="Keep these chains."),
+    shared("radii", show_default=True, metavar="NAME|FILE", help="Table of radii."),
+    shared("scale_radii", type=POSITIVE, metavar="X", help="Multiply all radii."),
+    shared("probe", type=NOT_NEGATIVE, metavar="R", help="Add to all radii, in Å."),
     click.option("--format", "format_", type=click.Choice(FORMATS), help="Input format, where - is read."),
     click.option("--quiet", is_flag=True, help="No summary line and no warnings."),
     click.option("--strict", is_flag=True, help="Warnings become errors."),
 )
-input_options = applied(model_option, part_options)
 eye_options = applied(
-    click.option(
-        "--orient",
-        type=click.Choice(["principal", "file"]),
-        default="principal",
+    shared(
+        "orient",
         show_default=True,
         help="Starting orientation: principal axes, widest side across, or as in the file.",
     ),
-    click.option("--rotate", type=ROTATION, multiple=True, help="Then turn about an axis of the page; repeatable."),
-    click.option("--perspective", type=POSITIVE, metavar="DISTANCE", help="Central projection; eye's distance in Å."),
+    shared("rotate", type=ROTATION, multiple=True, help="Then turn about an axis of the page; repeatable."),
+    shared("perspective", type=POSITIVE, metavar="DISTANCE", help="Central projection; eye's distance in Å."),
 )
 page_options = applied(
-    click.option("--width", type=LENGTH, help="Width of the drawing, e.g. 8cm."),
-    click.option("--scale", type=POSITIVE, metavar="PT_PER_ANGSTROM", help="Points per ångström, instead."),
-    click.option("--margin", type=Parsed("length", lambda text: 0.0 if text == "0" else parse_length(text))),
-    click.option("--page", type=click.Choice(["fit", *PAPER]), default="fit", show_default=True, help="Page size."),
-    click.option("--background", type=BACKGROUND, default="none", show_default=True, help="Colour, or none."),
-    click.option("--outline", type=NOT_NEGATIVE, metavar="W", help="Width of outlines, pt; 0 for none."),
-    click.option("--crease", type=NOT_NEGATIVE, metavar="W", help="Width of creases, pt; 0 for none."),
+    shared("width", type=LENGTH, help="Width of the drawing, e.g. 8cm."),
+    shared("scale", type=POSITIVE, metavar="PT_PER_ANGSTROM", help="Points per ångström, instead."),
+    shared("margin", type=MARGIN, help="Around the drawing, e.g. 5mm."),
+    shared("page", show_default=True, help="Page size."),
+    shared("background", type=BACKGROUND, show_default=True, help="Colour, or none."),
+    shared("outline", type=NOT_NEGATIVE, metavar="W", help="Width of outlines, pt; 0 for none."),
+    shared("crease", type=NOT_NEGATIVE, metavar="W", help="Width of creases, pt; 0 for none."),
 )
-
-
-def input_options_from(options: dict[str, Any]) -> InputOptions:
-    """Take the input options out of a command's keyword arguments."""
-    chain = options.pop("chain")
-    return InputOptions(
-        model=options.pop("model"),
-        assembly=options.pop("assembly"),
-        select=options.pop("select"),
-        water=not options.pop("no_water"),
-        hydrogens=not options.pop("no_hydrogens"),
-        chains=tuple(part.strip() for part in chain.split(",")) if chain else (),
-        radii=options.pop("radii"),
-        scale_radii=options.pop("scale_radii"),
-        probe=options.pop("probe"),
-        format=options.pop("format_"),
-    )
 
 
 def load_and_warn(source: str, wanted: InputOptions, quiet: bool, strict: bool) -> list[Loaded]:
@@ -150,11 +125,3 @@ def _standard_input() -> bytes:
     if sys.stdin is None:  # closed by the caller
         raise InputError("standard input is closed; expected the content of a file", "-")
     return sys.stdin.buffer.read()
-
-
-def only_model(loaded: list[Loaded]) -> Loaded:
-    """Return the one model that a picture shows; raises InputError where there are more."""
-    if len(loaded) > 1:
-        count = len(loaded)
-        raise InputError(f"has {count} models, and a picture shows one; expected --model NUMBER", loaded[0].source)
-    return loaded[0]

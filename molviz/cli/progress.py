@@ -17,7 +17,7 @@ class Progress:
 
     def __call__(self, stage: str) -> None:
         """Note that a stage begins."""
-        if sys.stderr.isatty() and time.monotonic() - self.began > PATIENCE:
+        if sys.stderr is not None and sys.stderr.isatty() and time.monotonic() - self.began > PATIENCE:
             filled = 30 * self.done // self.stages
             click.echo(f"\r[{'#' * filled}{'-' * (30 - filled)}] {stage:<24}", err=True, nl=False)
             self.shown = True

@@ -12,7 +12,7 @@ from typing import TypeVar
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.errors import InputError
+from molviz.errors import InternalError
 from molviz.model.spheres import Spheres
 
 DISPLACEMENT = 5e-5  # of a sphere's radius: 1e-4 Å for an atom, below a file's precision and far above rounding
@@ -28,14 +28,14 @@ class Degenerate(Exception):  # noqa: N818 - not an error: the caller asks for t
 def first_general(query: Callable[[int], T]) -> T:
     """Return the query's answer for the first attempt, from 0, for which it does not raise ``Degenerate``.
 
-    Raises InputError if (never seen) no attempt helps.
+    Raises InternalError if (never seen) no attempt helps.
     """
     for attempt in range(ATTEMPTS):
         try:
             return query(attempt)
         except Degenerate:
             continue
-    raise InputError(f"the spheres stay in special position after {ATTEMPTS} perturbations; is an eye too far away?")
+    raise InternalError(f"the spheres stay in special position after {ATTEMPTS} perturbations")
 
 
 def general_position(spheres: Spheres, attempt: int = 0) -> tuple[Spheres, Ints]:

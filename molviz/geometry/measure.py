@@ -58,6 +58,9 @@ class Measure(NamedTuple):
     area_gradient: Floats  # (n, 3) Å, of the whole area by each centre
     volume_gradient: Floats  # (n, 3) Å², of the volume by each centre
 
+    def __repr__(self) -> str:
+        return f"<Measure of {len(self.area)} balls: area {self.area.sum():.3f} Å², volume {self.volume:.3f} Å³>"
+
 
 class _Rims(NamedTuple):
     """Free arcs as seen from each of their two spheres, in the order of these: 2k rows, unit spheres."""

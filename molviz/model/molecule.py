@@ -1,13 +1,18 @@
-"""A molecule: named atoms in space, as a file described them."""
+"""A molecule: named atoms in space, as a file or an object of another library described them."""
 
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints, Strings
+from molviz.arrays import Bools, Floats, Ints, Strings
+from molviz.errors import InputError
+
+_NUMBERS = {"position": (3,), "bfactor": (), "radius": ()}  # columns of numbers, and the shape of a row
+_WIDEST = 8  # bytes of a number that float64 holds
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Molecule:
     """n atoms in columns; row k of every column is the same atom.
 
@@ -15,6 +20,9 @@ class Molecule:
     are empty where the format has no residues. ``element`` is the symbol as usually written (``"Fe"``), ``"X"``
     where unknown; D is kept apart from H. ``radius`` is NaN where the radii table decides, else the file's own.
     ``water`` is not stored: see ``molviz.model.selection``. ``row`` is the atom's row in the model it was read from.
+
+    Lists are taken as arrays. Raises InputError, naming the column, for lengths that differ, positions that are not
+    finite and radii that are not positive.
     """
 
     name: str
@@ -28,8 +36,21 @@ class Molecule:
     radius: Floats  # (n,) ångström or NaN
     row: Ints  # (n,)
 
+    def __post_init__(self) -> None:
+        for field in fields(self)[1:]:
+            object.__setattr__(self, field.name, _column(field.name, getattr(self, field.name)))
+        for field in fields(self)[1:]:
+            rows = len(getattr(self, field.name))
+            if rows != len(self):
+                raise InputError(f"{field.name}: {rows} rows; expected {len(self)}, one for each position")
+        _refuse("position", np.isfinite(self.position).sum(axis=1) < 3, "is not finite")
+        _refuse("radius", (self.radius <= 0) | np.isinf(self.radius), "is not a finite number above 0")
+
     def __len__(self) -> int:
         return len(self.position)
+
+    def __repr__(self) -> str:
+        return f"<Molecule {self.name!r}: {len(self)} atoms>"
 
     def take(self, rows: Ints) -> "Molecule":
         """Return the molecule of the given atoms, in that order."""
@@ -39,6 +60,7 @@ class Molecule:
     @staticmethod
     def of(name: str, position: Floats, element: Strings, **columns: object) -> "Molecule":
         """Return a molecule whose missing columns are empty texts, NaN and the natural row numbers."""
+        position = doubles("position", position, _NUMBERS["position"])
         n = len(position)
         text, number = np.full(n, ""), np.full(n, np.nan)
         default: dict[str, object] = {
@@ -46,3 +68,39 @@ class Molecule:
             "bfactor": number, "radius": number, "row": np.arange(n),
         }  # fmt: skip
         return Molecule(name=name, position=position, element=element, **(default | columns))  # type: ignore[arg-type]
+
+
+def doubles(name: str, values: object, row: tuple[int, ...] = ()) -> Floats:
+    """Return numbers (n, *row) in double precision; ``name`` is what InputError calls them where they are none.
+
+    Those in single precision become the double nearest to their shortest decimal: 0.1 stays 0.1, as files have it.
+    """
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind not in "fiuO":
+            raise TypeError
+        short = array.dtype.kind == "f" and array.dtype.itemsize < _WIDEST
+        numbers = (array.astype(str) if short else array).astype(np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: not a table of numbers") from None
+    if row and numbers.size == 0:
+        numbers = numbers.reshape(0, *row)
+    if numbers.ndim != 1 + len(row) or numbers.shape[1:] != row:
+        raise InputError(f"{name}: numbers of shape {numbers.shape}; expected (n{''.join(f', {k}' for k in row)})")
+    return numbers
+
+
+def _column(name: str, values: Any) -> Any:
+    """Return a column as an array of its type."""
+    if name in _NUMBERS:
+        return doubles(name, values, _NUMBERS[name])
+    array = np.asarray(values)
+    if array.ndim != 1:
+        raise InputError(f"{name}: shape {array.shape}; expected (n,)")
+    return array.astype(np.int64 if name == "row" else str, copy=False)
+
+
+def _refuse(name: str, wrong: Bools, what: str) -> None:
+    rows = np.flatnonzero(wrong)
+    if len(rows):
+        raise InputError(f"{name}: row {rows[0]} {what}")

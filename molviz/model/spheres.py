@@ -15,9 +15,16 @@ class Spheres(NamedTuple):
     center: Floats  # (n, 3) ångström
     radius: Floats  # (n,) ångström
 
+    def __repr__(self) -> str:
+        return f"<Spheres: {len(self.radius)}>"
+
     def take(self, rows: Ints) -> "Spheres":
         """Return the given spheres, in that order."""
         return Spheres(self.center[rows], self.radius[rows])
+
+    def enlarged(self, scale: float, probe: float) -> "Spheres":
+        """Return the spheres with ``scale`` times their radii plus ``probe`` ångström."""
+        return Spheres(self.center, scale * self.radius + probe)
 
     def box(self) -> tuple[Floats, Floats]:
         """Return the corners (3,), (3,) of the bounding box of n ≥ 1 balls."""
@@ -25,9 +32,7 @@ class Spheres(NamedTuple):
         return np.min(self.center - reach, axis=0), np.max(self.center + reach, axis=0)
 
 
-def spheres_of(
-    molecule: Molecule, table: str = DEFAULT, scale: float = 1.0, probe: float = 0.0
-) -> tuple[Spheres, tuple[str, ...]]:
-    """Return a sphere per atom, of ``scale`` times its radius in the table plus ``probe`` ångström, and warnings."""
+def spheres_of(molecule: Molecule, table: str = DEFAULT) -> tuple[Spheres, tuple[str, ...]]:
+    """Return a sphere per atom, of its radius in the table, and warnings."""
     radius, warnings = radii(molecule, table)
-    return Spheres(molecule.position, scale * radius + probe), warnings
+    return Spheres(molecule.position, radius), warnings

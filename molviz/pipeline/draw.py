@@ -1,142 +1,152 @@
-"""From a molecule to the bytes of a drawing: every stage in order."""
+"""From a molecule to a drawing: what is seen is computed once, and becomes a picture in any format when asked for."""
 
 import json
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import PurePath
 
 import numpy as np
 
-from molviz.arrays import Floats
+from molviz.arrays import Floats, Ints
 from molviz.errors import InputError
 from molviz.geometry.measure import measure_spheres
-from molviz.model.spheres import Spheres
 from molviz.picture.compose import DrawOptions, Subject, picture_of_map, picture_of_pieces
 from molviz.picture.picture import Picture
+from molviz.picture.style import load_style
 from molviz.pipeline.inputs import Loaded
-from molviz.pipeline.outputs import encoded
+from molviz.pipeline.outputs import encoded, save
+from molviz.pipeline.values import Options, chosen, given, legend_from, page_from, parse_background, parse_not_negative
+from molviz.pipeline.views import ViewOptions, view_of
 from molviz.visibility.checks import check_map
 from molviz.visibility.lines import slivers
-from molviz.visibility.map import BACKGROUND
+from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.map_json import map_as_data
+from molviz.visibility.painter import Pieces
 from molviz.visibility.scene import Scene, extent
-from molviz.visibility.view import View, file_axes, principal_axes
+from molviz.visibility.view import View
 from molviz.write import WRITERS
 
 JSON = ".json"
 NOT_PAINTED = (JSON, ".hpgl")  # the map is another thing, and a pen cannot cover what it drew
 WATER_RADIUS = 1.4  # ångström, Lee & Richards 1971
-Report = Callable[[str], None]  # told the name of each stage as it begins
 
 
-@dataclass(frozen=True)
-class ViewOptions:
-    """Where the user looks from."""
+@dataclass(frozen=True, repr=False, eq=False)
+class Drawing:
+    """One molecule as it is seen, ready for any format; a notebook shows it as SVG.
 
-    orient: str = "principal"
-    rotations: tuple[tuple[str, float], ...] = ()  # axis of the page, degrees
-    distance: float | None = None  # ångström from the centre, None for a parallel view
+    ``atoms_read`` counts the atoms of the model, ``atoms_drawn`` those that the options left, ``visible`` those of
+    which something is seen, ``arcs`` the pieces of all lines.
+    """
 
-
-@dataclass(frozen=True)
-class OutputFormat:
-    """The format of a drawing by its suffix; plotter and paper for HPGL, the usual ones where empty."""
-
-    suffix: str
-    plotter: str = ""
-    paper: str = ""
-
-
-class Drawing(NamedTuple):
-    """The bytes of a drawing and what its summary line tells."""
-
-    data: bytes
-    atoms: int
+    atoms_read: int
+    atoms_drawn: int
     visible: int
     arcs: int
+    _loaded: Loaded
+    _options: DrawOptions
+    _view: View
+    _seen: VisibilityMap | Pieces
+    _atom: Ints  # row of the molecule of each of the spheres in it
+
+    def __repr__(self) -> str:
+        return (
+            f"<Drawing of {self._loaded.molecule.name!r}: {self.atoms_read} atoms read, {self.atoms_drawn} drawn, "
+            f"{self.visible} visible, {self.arcs} arcs>"
+        )
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+    def svg(self) -> str:
+        """Return the drawing as the text of an SVG file."""
+        return self.to("svg").decode("utf-8")
+
+    def to(self, format: str, plotter: str = "", paper: str = "") -> bytes:
+        """Return the drawing as the content of a file: ``"svg"``, ``"pdf"``, ``"eps"``, ``"json"`` (the map) …
+
+        ``plotter`` and ``paper`` matter to ``"hpgl"`` alone. Raises InputError for a format that nobody knows, and
+        for one that painting over (``method="painter"``) does not give.
+        """
+        suffix = f".{str(format).removeprefix('.')}".lower()
+        if suffix not in suffixes():
+            raise InputError(f"format: {format!r}; expected one of {' '.join(suffixes())}")
+        if isinstance(self._seen, Pieces) and suffix in NOT_PAINTED:
+            raise InputError(f"painting over gives no {suffix}; expected method visible", self._loaded.source)
+        return self._map_as_json() if suffix == JSON else encoded(self._picture, suffix, plotter, paper)
+
+    def save(self, path: str | os.PathLike[str], plotter: str = "", paper: str = "") -> None:
+        """Write the drawing in the format that the suffix of the path names; the file appears whole or not at all.
+
+        Raises InputError for an unknown suffix, and where the file cannot be written.
+        """
+        suffix = PurePath(path).suffix
+        if suffix.lower() not in suffixes():
+            raise InputError(f"path: no format {suffix!r}; expected one of {' '.join(suffixes())}")
+        save(os.fspath(path), self.to(suffix, plotter, paper))
+
+    @cached_property
+    def _picture(self) -> Picture:
+        molecule = self._loaded.molecule
+        low, high = extent(self._loaded.spheres, self._view)
+        subject = Subject(molecule, self._atom, low, high, color_values(self._loaded, self._options.color_by))
+        if isinstance(self._seen, Pieces):
+            return picture_of_pieces(self._seen, subject, self._options)
+        return picture_of_map(self._seen, subject, self._options)
+
+    def _map_as_json(self) -> bytes:
+        assert isinstance(self._seen, VisibilityMap)  # painter's pieces were refused
+        data = map_as_data(self._seen, self._loaded.molecule.row[self._atom], self._view)
+        return json.dumps(data, separators=(",", ":")).encode() + b"\n"
 
 
-def draw(
-    loaded: Loaded,
-    output: OutputFormat,
-    options: DrawOptions,
-    view_options: ViewOptions,
-    method: str,
-    check: bool,
-    report: Report,
+def draw_options_from(options: Options) -> DrawOptions:
+    """Return the look of a picture; raises InputError for a style that is none as well."""
+    return DrawOptions(
+        style=load_style(str(options["style"])),
+        color_by=chosen(options, "color_by"),
+        fill=chosen(options, "fill"),
+        outline=given(options, "outline", parse_not_negative),
+        crease=given(options, "crease", parse_not_negative),
+        background=given(options, "background", parse_background),
+        page=page_from(options),
+        legend=legend_from(options),
+    )
+
+
+def drawing_of(
+    loaded: Loaded, options: DrawOptions, view_options: ViewOptions, method: str = "visible", check: bool = False
 ) -> Drawing:
     """Return one model drawn; ``method`` is ``visible`` or ``painter``.
 
-    ``check`` verifies the visibility map and raises InputError where an invariant does not hold.
+    ``check`` verifies the visibility map and raises InternalError where an invariant does not hold. Raises InputError
+    where the eye is not in front of all atoms.
     """
-    view = view_of(loaded, view_options)
-    low, high = extent(loaded.spheres, view)
-    values = color_values(loaded, options.color_by)
-    subject = Subject(loaded.molecule, np.arange(len(loaded.molecule)), low, high, values)
+    view = view_of(loaded.spheres, view_options)
+    drawn = len(loaded.molecule)
     if method == "painter":
-        if output.suffix in NOT_PAINTED:
-            raise InputError(f"painting over gives no {output.suffix}; expected --method visible", loaded.source)
-        return _painted(loaded, output, options, view, subject, report)
-    return _mapped(loaded, output, options, view, subject, check, report)
-
-
-def _mapped(
-    loaded: Loaded,
-    output: OutputFormat,
-    options: DrawOptions,
-    view: View,
-    subject: Subject,
-    check: bool,
-    report: Report,
-) -> Drawing:
-    report("visibility map")
-    view_map, atom = Scene(loaded.spheres, only=view).map(view)
+        pieces, atom = Scene(loaded.spheres, only=view).pieces(view)
+        visible, arcs = len(pieces.order), len(pieces.curve_arcs.curve)
+        return Drawing(loaded.read, drawn, visible, arcs, loaded, options, view, pieces, atom)
+    seen, atom = Scene(loaded.spheres, only=view).map(view)
     if check:
-        check_map(view_map, view)
-    visible = int(np.sum(np.unique(view_map.loops.face[~slivers(view_map)]) != BACKGROUND))
-    if output.suffix == JSON:
-        plain = map_as_data(view_map, loaded.molecule.row[atom], view)
-        data = json.dumps(plain, separators=(",", ":")).encode() + b"\n"
-    else:
-        report("picture")
-        data = _written(picture_of_map(view_map, replace(subject, atom=atom), options), output, report)
-    return Drawing(data, loaded.read, visible, len(view_map.curve_arcs.curve))
-
-
-def _painted(
-    loaded: Loaded, output: OutputFormat, options: DrawOptions, view: View, subject: Subject, report: Report
-) -> Drawing:
-    report("painter's pieces")
-    pieces, atom = Scene(loaded.spheres, only=view).pieces(view)
-    report("picture")
-    picture = picture_of_pieces(pieces, replace(subject, atom=atom), options)
-    return Drawing(_written(picture, output, report), loaded.read, len(pieces.order), len(pieces.curve_arcs.curve))
-
-
-def _written(picture: Picture, output: OutputFormat, report: Report) -> bytes:
-    report("writing")
-    return encoded(picture, output.suffix, output.plotter, output.paper)
+        check_map(seen, view)
+    visible = int(np.sum(np.unique(seen.loops.face[~slivers(seen)]) != BACKGROUND))
+    return Drawing(loaded.read, drawn, visible, len(seen.left), loaded, options, view, seen, atom)
 
 
 def color_values(loaded: Loaded, scheme: str) -> Floats:
     """Return what a continuous colour scheme shows of each atom (n,), NaN for other schemes.
 
-    Exposure is the exact solvent-accessible area of the atom in Å² (water, radius 1.4 Å, among the atoms subject).
+    Exposure is the exact solvent-accessible area of the atom in Å² among the atoms drawn: the table's radii, whatever
+    those of the drawing, and a water of radius 1.4 Å.
     """
     if scheme == "exposure":
-        return measure_spheres(Spheres(loaded.spheres.center, loaded.spheres.radius + WATER_RADIUS)).area
+        return measure_spheres(loaded.bare.enlarged(1.0, WATER_RADIUS)).area
     return loaded.molecule.bfactor if scheme == "bfactor" else np.full(len(loaded.molecule), np.nan)
 
 
-def view_of(loaded: Loaded, view_options: ViewOptions) -> View:
-    """Return the view that the user's options mean for one model."""
-    axes = principal_axes if view_options.orient == "principal" else file_axes
-    view = axes(loaded.spheres, view_options.distance)
-    for axis, degrees in view_options.rotations:
-        view = view.rotated(axis, degrees)
-    return view
-
-
 def suffixes() -> tuple[str, ...]:
-    """Return the suffixes of all formats that ``draw`` writes."""
+    """Return the suffixes of all formats that a drawing has."""
     return (*WRITERS, JSON)

@@ -28,9 +28,9 @@ from molviz.model.scenes import random_scene, text_scene
 from molviz.model.spheres import Spheres
 from molviz.picture.disc_picture import DiscLook, disc_picture
 from molviz.picture.picture import Picture
-from molviz.pipeline.draw import ViewOptions, view_of
 from molviz.pipeline.inputs import Loaded
 from molviz.pipeline.outputs import encoded
+from molviz.pipeline.views import ViewOptions, view_of
 
 Statistics: TypeAlias = dict[str, int | float | dict[str, int]]
 
@@ -102,7 +102,7 @@ def molecule_discs(loaded: Loaded, view_options: ViewOptions, across: int | None
     """
     if view_options.distance is not None:
         raise InputError("discs are drawn in parallel projection; expected no --perspective", loaded.source)
-    seen = view_of(loaded, view_options).of(loaded.spheres)
+    seen = view_of(loaded.spheres, view_options).of(loaded.spheres)
     return hide_discs(by_depth(seen), across=across)
 
 

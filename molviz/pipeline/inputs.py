@@ -45,6 +45,7 @@ class Loaded(NamedTuple):
     read: int
     molecule: Molecule
     spheres: Spheres
+    bare: Spheres  # radii of the table, neither scaled nor with a probe
     warnings: tuple[str, ...]
 
 
@@ -53,8 +54,20 @@ def load(source: str, wanted: InputOptions, data: bytes | None = None) -> list[L
 
     Raises InputError for what cannot be read, for a model or assembly that is not there, and where nothing is left.
     """
-    reading = read(source, data, wanted.format)
+    return loaded_from(read(source, data, wanted.format), wanted)
+
+
+def loaded_from(reading: Reading, wanted: InputOptions) -> list[Loaded]:
+    """Return the wanted models of what was read; raises InputError as ``load`` does."""
     return [_loaded(reading, number, wanted) for number in _model_numbers(reading, wanted.model)]
+
+
+def only_model(loaded: list[Loaded]) -> Loaded:
+    """Return the one model that a picture shows; raises InputError where there are more."""
+    if len(loaded) > 1:
+        count = len(loaded)
+        raise InputError(f"has {count} models, and a picture shows one; expected --model NUMBER", loaded[0].source)
+    return loaded[0]
 
 
 def _model_numbers(reading: Reading, model: str) -> list[int]:
@@ -71,12 +84,13 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
     if wanted.assembly is not None:
         whole = reading.assembly(wanted.assembly, number - 1)
     molecule = _named(_kept(whole, wanted, reading.source), reading.source)
-    spheres, warnings = spheres_of(molecule, wanted.radii, wanted.scale_radii, wanted.probe)
+    bare, warnings = spheres_of(molecule, wanted.radii)
+    spheres = bare.enlarged(wanted.scale_radii, wanted.probe)
     warnings += _far_apart(spheres)
     told = tuple(f"{reading.source}: {warning}" for warning in warnings)
     count = len(reading.models)
     return Loaded(
-        reading.source, reading.format, number, count, len(whole), molecule, spheres, reading.warnings + told
+        reading.source, reading.format, number, count, len(whole), molecule, spheres, bare, reading.warnings + told
     )
 
 

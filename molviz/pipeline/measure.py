@@ -1,6 +1,5 @@
 """``molviz measure``: spheres → union boundary → area and volume → sums over atoms, residues or chains."""
 
-import warnings
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -8,11 +7,9 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints, Strings
 from molviz.errors import InputError
-from molviz.geometry.measure import Measure, measure_spheres
+from molviz.geometry.measure import measure_spheres
 from molviz.model.molecule import Molecule
-from molviz.model.radii import DEFAULT
 from molviz.model.selection import select
-from molviz.model.spheres import spheres_of
 from molviz.pipeline.inputs import Loaded
 
 PER = ("atom", "residue", "chain")
@@ -41,18 +38,6 @@ class Measurement:
     volume: float  # Å³
     exposed: float | None  # Å², None without a selection
     parts: tuple[Part, ...]
-
-
-def measure(molecule: Molecule, probe: float = 1.4, radii: str = DEFAULT) -> Measure:
-    """Return exact areas (n,) in Å² and the volume in Å³ of the union of a molecule's balls, ``probe`` Å larger.
-
-    Derivatives by the atoms' positions come with it. Warns of radii that had to be guessed. Raises InputError for an
-    unknown table of radii.
-    """
-    spheres, notes = spheres_of(molecule, radii, probe=probe)
-    for note in notes:
-        warnings.warn(note, stacklevel=2)
-    return measure_spheres(spheres)
 
 
 def measurement(loaded: Loaded, selection: str | None = None, per: str | None = None) -> Measurement:

@@ -6,9 +6,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.planar_map import loop_areas
-from molviz.model.molecule import Molecule
-from molviz.model.radii import DEFAULT
-from molviz.model.spheres import spheres_of
+from molviz.model.spheres import Spheres
 from molviz.vectors import cross
 from molviz.visibility.checks import check_map
 from molviz.visibility.eye import projection_of
@@ -16,10 +14,10 @@ from molviz.visibility.lines import depth_jump, is_silhouette
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.projection import images_of
 from molviz.visibility.scene import Scene
-from molviz.visibility.view import View, principal_axes
+from molviz.visibility.view import View
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Visible:
     """The visibility map of n atoms; arcs are rows of ``map``, atoms rows of the molecule.
 
@@ -34,25 +32,24 @@ class Visible:
     right: Ints  # (arcs,)
     depth_jump: Floats  # (arcs,) Å from the nearer to the farther surface; 0 at a crease, inf at a silhouette
 
+    def __repr__(self) -> str:
+        seen = np.count_nonzero(self.area)
+        return f"<Visible: {seen} of {len(self.area)} atoms, {len(self.left)} arcs>"
+
     @property
     def silhouette(self) -> Bools:
         """Which arcs (arcs,) lie between an atom and the background."""
         return is_silhouette(self.map)
 
     def check(self) -> None:
-        """Raise InputError if Euler's formula, the areas or the faces seen beside arcs do not hold."""
+        """Raise InternalError if Euler's formula, the areas or the faces seen beside arcs do not hold."""
         check_map(self.map, self.view)
 
 
-def visible(molecule: Molecule, view: View | None = None, radii: str = DEFAULT, probe: float = 0.0) -> Visible:
-    """Return what is seen of a molecule, by default along its shortest principal axis.
-
-    Raises InputError for an unknown table of radii, or an eye that is not in front of all atoms.
-    """
-    spheres, _ = spheres_of(molecule, radii, probe=probe)
-    view = view or principal_axes(spheres)
+def visible_of(spheres: Spheres, view: View) -> Visible:
+    """Return what is seen of n spheres; raises InputError for an eye that is not in front of all of them."""
     view_map, atom = Scene(spheres, only=view).map(view)
-    area, disc = np.zeros(len(molecule)), np.full(len(molecule), np.inf)
+    area, disc = np.zeros(len(spheres.radius)), np.full(len(spheres.radius), np.inf)
     inside = view_map.loops.face != BACKGROUND
     np.add.at(area, atom[view_map.loops.face[inside]], loop_areas(view_map.arcs, view_map.loops)[inside])
     disc[atom] = _disc_areas(view_map, view)

@@ -19,7 +19,7 @@ class AssemblyPart(NamedTuple):
     operators: Floats  # (k, 3, 4), R in the first three columns, t in the last, ångström
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Reading:
     """Everything that one file held.
 
@@ -34,6 +34,10 @@ class Reading:
     assemblies: Mapping[str, tuple[AssemblyPart, ...]] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     operator_chain: tuple[Strings, ...] = ()
+
+    def __repr__(self) -> str:
+        atoms, s = sum(map(len, self.models)), "" if len(self.models) == 1 else "s"
+        return f"<Reading of {self.source!r}: {self.format}, {len(self.models)} model{s}, {atoms} atoms>"
 
     def warned(self, warnings: list[str]) -> "Reading":
         """Return the reading with more warnings, put first."""

@@ -4,7 +4,7 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.curves import PlaneArcs
-from molviz.errors import InputError
+from molviz.errors import InternalError
 from molviz.geometry.intervals import Intervals, above, gaps
 from molviz.geometry.planar_map import euler_defect, loop_areas
 from molviz.geometry.rows import expand
@@ -21,15 +21,15 @@ CLEAR = 1e-3  # of the step, by which one surface must be nearer than the others
 
 
 def check_map(view_map: VisibilityMap, view: View) -> None:
-    """Raise InputError if the map breaks an invariant; that every vertex balances was seen to when it was made."""
+    """Raise InternalError if the map breaks an invariant; that every vertex balances was seen to when it was made."""
     if euler_defect(view_map.edges, view_map.loops):
-        raise InputError("the visibility map breaks Euler's formula")
+        raise InternalError("the visibility map breaks Euler's formula")
     difference = area_difference(view_map, projection_of(view))
     if difference > AREA_TOLERANCE:
-        raise InputError(f"the faces' areas differ from the area of the union of discs by {difference:.1e} of it")
+        raise InternalError(f"the faces' areas differ from the area of the union of discs by {difference:.1e} of it")
     wrong = arcs_beside_wrong_faces(view_map, view)
     if len(wrong):
-        raise InputError(f"{len(wrong)} faces of the visibility map are not what is seen beside their arcs")
+        raise InternalError(f"{len(wrong)} faces of the visibility map are not what is seen beside their arcs")
 
 
 def area_difference(view_map: VisibilityMap, projection: Projection) -> float:

@@ -16,6 +16,7 @@ from molviz.visibility.forms import Quadratic
 
 POLISH_STEPS = 3  # Newton steps for the roots themselves, quadratic from the lines' 1e-8 or better
 SMALL_FACTOR = 1e-3  # below this ratio of p and q, dividing by the smaller loses what the product e f still knows
+NOTHING = 1e-40  # of the function's size: far below rounding, and its square is still a number
 NEARLY_LINEAR = 1e-10  # second harmonic relative to the first below which one line is taken, and polished
 
 
@@ -60,6 +61,7 @@ def harmonics(form: Quadratic) -> Harmonics:
         np.hypot(even, odd),
     ])  # fmt: skip
     columns /= np.maximum(np.abs(columns).max(axis=0), np.finfo(float).tiny)
+    columns[np.abs(columns) < NOTHING] = 0.0
     return Harmonics(columns[0], columns[1], columns[2], columns[3], psi)
 
 

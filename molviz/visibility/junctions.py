@@ -9,7 +9,7 @@ from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
 from molviz.geometry.rows import expand
 from molviz.visibility.curves import Curves
-from molviz.visibility.named_arcs import TEE, WHOLE, NamedArcs, vertex_numbers
+from molviz.visibility.named_arcs import ENTRY, TEE, WHOLE, NamedArcs, vertex_numbers
 from molviz.visibility.occluders.sphere import SphereOccluders
 
 SNAP = 1e-9  # radians by which rounding may put a junction outside the arc it lies on
@@ -33,17 +33,24 @@ class _Junctions(NamedTuple):
     vertex: Ints
 
 
-def split_at_junctions(named: NamedArcs, curves: Curves, horizons: Curves, spheres: SphereOccluders) -> CurveArcs:
-    """Return the arcs as those of the map; raises ``Degenerate`` where a junction lies on no visible horizon.
+def split_at_junctions(
+    named: NamedArcs, curves: Curves, horizons: Curves, spheres: SphereOccluders
+) -> tuple[CurveArcs, Ints]:
+    """Return the arcs as those of the map, and for each vertex the ball that a horizon enters there, −1 if none.
 
-    ``horizons`` are the last of the ``curves``.
+    ``horizons`` are the last of the ``curves``. Raises ``Degenerate`` where a junction lies on no visible horizon.
     """
     origin, target = vertex_numbers(named.origin, named.target)
     tees = [
         _junctions(named, curves, horizons, spheres, name, vertex, fraction)
         for name, vertex, fraction in ((named.origin, origin, 0.0), (named.target, target, 1.0))
     ]
-    return _split(named, origin, target, _Junctions(*(np.concatenate(column) for column in zip(*tees, strict=True))))
+    junctions = _Junctions(*(np.concatenate(column) for column in zip(*tees, strict=True)))
+    entered = np.full(int(max(origin.max(initial=-1), target.max(initial=-1))) + 1, -1)
+    for name, vertex in ((named.origin, origin), (named.target, target)):
+        rows = np.flatnonzero(name[:, 0] >> 1 == ENTRY)
+        entered[vertex[rows]] = name[rows, 2]
+    return _split(named, origin, target, junctions), entered
 
 
 def _junctions(

@@ -88,8 +88,8 @@ def map_in_view(
         *creases_hidden(spheres, creases, projection, near, discs),
     ])  # fmt: skip
     named = visible_arcs(curves, np.arange(len(curves.first)), hidden)
-    curve_arcs = split_at_junctions(named, curves, horizons, spheres)
-    return _assembled(spheres, curves, curve_arcs, near, projection)
+    curve_arcs, entered = split_at_junctions(named, curves, horizons, spheres)
+    return _assembled(spheres, curves, curve_arcs, entered, near, projection)
 
 
 def _creases_between(boundary: Boundary, wanted: Ints, view: View) -> tuple[Curves, Hidden]:
@@ -108,14 +108,26 @@ def _creases_between(boundary: Boundary, wanted: Ints, view: View) -> tuple[Curv
 
 
 def _assembled(
-    spheres: SphereOccluders, curves: Curves, curve_arcs: CurveArcs, near: Neighbours, projection: Projection
+    spheres: SphereOccluders,
+    curves: Curves,
+    curve_arcs: CurveArcs,
+    entered: Ints,
+    near: Neighbours,
+    projection: Projection,
 ) -> VisibilityMap:
-    """Name the faces beside each arc: ``second`` left and ``first`` right of a crease, what is behind of a horizon."""
+    """Name the faces beside each arc: ``second`` left and ``first`` right of a crease, what is behind of a horizon.
+
+    Beside a horizon that is about to enter a ball that ball is seen, however short the arc: of neighbours at almost
+    one height it is as short as the square of their difference, and its middle would be a matter of rounding.
+    """
     arcs = projection.page_arcs(curves, curve_arcs.curve, curve_arcs.start, curve_arcs.sweep)
     left, right = curves.second[curve_arcs.curve], curves.first[curve_arcs.curve]
     rows = np.flatnonzero(~curves.is_crease()[curve_arcs.curve])
     points = arcs.take(rows).at(arcs.middle()[rows])
     right[rows] = _behind(spheres, left[rows], points, near)
+    for end, other in ((curve_arcs.origin, curve_arcs.target), (curve_arcs.target, curve_arcs.origin)):
+        beside = rows[(entered[end[rows]] >= 0) & (entered[other[rows]] < 0)]
+        right[beside] = entered[end[beside]]
     edges = planar_map(curve_arcs.origin, curve_arcs.target, left, right)
     return VisibilityMap(spheres.spheres, curves, curve_arcs, arcs, edges, loops(edges))
 

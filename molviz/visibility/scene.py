@@ -6,6 +6,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from molviz.arrays import Floats, Ints
+from molviz.errors import InputError, InternalError
 from molviz.geometry.boundary import Boundary, union_boundary
 from molviz.geometry.general_position import first_general, general_position
 from molviz.model.spheres import Spheres
@@ -41,7 +42,7 @@ class Scene:
     def map(self, view: View) -> tuple[VisibilityMap, Ints]:
         """Return the visibility map and the row of each of its spheres.
 
-        Raises InputError if an eye lies inside the molecule.
+        Raises InputError if an eye lies inside the molecule or too far away.
         """
         return self._in_general_position(view, _map)
 
@@ -52,7 +53,12 @@ class Scene:
     def _in_general_position(self, view: View, query: Callable[[Prepared, View], T]) -> T:
         """The query's answer, displacing again as long as the spheres prove degenerate."""
         refuse_eye_among(self.spheres, view)
-        return first_general(lambda attempt: query(self._attempt(attempt), view))
+        try:
+            return first_general(lambda attempt: query(self._attempt(attempt), view))
+        except InternalError:
+            if projection_of(view).keeps_circles:
+                raise
+            raise InputError("too far an eye: numbers run out of digits; expected a nearer one, or none") from None
 
     def _attempt(self, attempt: int) -> Prepared:
         if attempt not in self._prepared:

@@ -11,7 +11,7 @@ EQUAL_MOMENTS = 1e-4  # of the largest: moments closer than that leave the axes 
 SKEW = 1e-6  # of the absolute third moment: less than that is a symmetric molecule
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class View:
     """Rows of ``rotation`` are the page's x, y, z in the molecule's axes; the eye looks down −z.
 
@@ -22,6 +22,10 @@ class View:
     rotation: Floats  # (3, 3)
     center: Floats  # (3,) ångström
     distance: float | None = None
+
+    def __repr__(self) -> str:
+        eye = "parallel" if self.distance is None else f"eye {self.distance:g} Å away"
+        return f"<View: {eye}, towards the eye {np.array2string(self.rotation[2], precision=3)}>"
 
     def rotated(self, axis: str, degrees: float) -> "View":
         """Return the view after a right-handed turn of the molecule about the page's x, y or z."""

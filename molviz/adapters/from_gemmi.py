@@ -1,0 +1,63 @@
+"""gemmi: ``Structure`` with all its models, and ``Model``."""
+
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from molviz.adapters.plain import SOURCE
+from molviz.errors import InputError
+from molviz.model.elements import UNKNOWN, symbol_of
+from molviz.model.molecule import doubles
+from molviz.readers.atoms import AtomTable, Models, models_of
+
+
+class _Row(NamedTuple):
+    """One atom, by the names of the columns of an AtomTable."""
+
+    model: int
+    position: list[float]
+    element: str
+    atom_name: str
+    residue_name: str
+    residue: str
+    chain: str
+    bfactor: float
+    occupancy: float
+    alternate: str
+
+
+def models_of_structure(structure: Any) -> Models:
+    """Return the models; of alternate locations the one with the highest occupancy stays, the first on a tie."""
+    return _models(structure, structure.name)
+
+
+def models_of_model(model: Any) -> Models:
+    """Return one model, alternate locations as above."""
+    return _models([model], "")
+
+
+def _models(models: Iterable[Any], name: str) -> Models:
+    rows = [_row(number, place) for number, model in enumerate(models) for place in model.all()]
+    if not rows:
+        raise InputError("no atoms; expected one at least", SOURCE)
+    columns = {field: np.array(column) for field, column in zip(_Row._fields, zip(*rows, strict=True), strict=True)}
+    columns["bfactor"] = doubles("bfactor", columns["bfactor"].astype(np.float32))  # gemmi keeps single precision
+    table = AtomTable(**columns, operator_chain=columns["chain"], line_of=lambda row: None)
+    return models_of(table, name, SOURCE)
+
+
+def _row(number: int, place: Any) -> _Row:
+    chain, residue, atom = place.chain, place.residue, place.atom
+    return _Row(
+        model=number,
+        position=atom.pos.tolist(),
+        element=symbol_of(atom.element.name) or UNKNOWN,
+        atom_name=atom.name,
+        residue_name=residue.name,
+        residue=str(residue.seqid),
+        chain=chain.name,
+        bfactor=atom.b_iso,
+        occupancy=atom.occ,
+        alternate=atom.altloc.strip("\0"),
+    )

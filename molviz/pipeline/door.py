@@ -1,0 +1,154 @@
+"""The front door for Python: what is drawn, measured and seen of anything made of spheres.
+
+The signatures here state the defaults, and the command line takes its own from them. What does the work is imported
+when it is called for: naming a function costs nothing.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+
+TYPE_CHECKING = False  # as typing's: importing that costs more than all else here
+if TYPE_CHECKING:
+    import os
+    from typing import Any
+
+    from molviz.geometry.measure import Measure
+    from molviz.pipeline.draw import Drawing
+    from molviz.pipeline.inputs import Loaded
+    from molviz.pipeline.visible import Visible
+    from molviz.visibility.view import View
+
+
+def draw(
+    x: Any,
+    *,
+    method: str = "visible",
+    check: bool = False,
+    style: str | os.PathLike[str] = "default",
+    color_by: str = "element",
+    legend: bool = False,
+    fill: str = "flat",
+    outline: float | None = None,
+    crease: float | None = None,
+    background: str | Sequence[int] | None = "none",
+    orient: str = "principal",
+    rotate: str | Sequence[str | tuple[str, float]] = (),
+    perspective: float | None = None,
+    width: float | str | None = None,
+    scale: float | None = None,
+    margin: float | str | None = None,
+    page: str = "fit",
+    model: int | str = 1,
+    assembly: str | None = None,
+    select: str | None = None,
+    no_water: bool = False,
+    no_hydrogens: bool = False,
+    chain: str | Sequence[str] | None = None,
+    radii: str | os.PathLike[str] = "bondi",
+    scale_radii: float = 1.0,
+    probe: float = 0.0,
+) -> Drawing:
+    """Return an exact vector picture of ``x``, which a notebook shows and ``save("x.pdf")`` writes.
+
+    ``x`` is a path, a Molecule, a pair (centers (n, 3), radii (n,)) in ångström, ASE Atoms, a gemmi Structure or
+    Model, a biotite AtomArray, an MDAnalysis AtomGroup or Universe, or an RDKit Mol with a conformer.
+
+    The options are those of ``molviz draw`` on the command line:
+
+    * what is seen: ``method`` "visible" (the exact map) or "painter" (pieces that cover each other), ``check``;
+    * the look: ``style`` (name or TOML file), ``color_by`` "element", "chain", "residue", "index", "bfactor" or
+      "exposure", ``legend``, ``fill`` "flat" or "none", ``outline`` and ``crease`` (widths in points, 0 for none),
+      ``background`` ("white", "#ffe", (255, 255, 238) or "none");
+    * the view: ``orient`` "principal" or "file", ``rotate`` ("x,30", or [("x", 30), ("y", 10)] in degrees),
+      ``perspective`` (the eye's distance in ångström);
+    * the page: ``width`` ("8cm", or points), ``scale`` (points per ångström), ``margin``, ``page`` "fit", "a4" or
+      "letter";
+    * the part that is drawn: ``model`` (from 1), ``assembly``, ``select`` ("chain A and not water"), ``no_water``,
+      ``no_hydrogens``, ``chain`` ("A,B" or ["A", "B"]);
+    * its radii: ``radii`` (table or file), ``scale_radii``, ``probe`` (ångström).
+
+    Raises InputError, a ValueError, naming what is wrong, and warns of what is odd.
+    """
+    options = dict(locals())
+    from molviz.pipeline.draw import draw_options_from, drawing_of
+    from molviz.pipeline.values import chosen, view_options_from
+
+    look, view_options = draw_options_from(options), view_options_from(options)
+    loaded = load_one(x, options)
+    tell(loaded.warnings, stacklevel=3)
+    return drawing_of(loaded, look, view_options, chosen(options, "method"), check)
+
+
+def measure(
+    x: Any,
+    probe: float = 0.0,
+    radii: str | os.PathLike[str] = "bondi",
+    *,
+    model: int | str = 1,
+    assembly: str | None = None,
+    select: str | None = None,
+    no_water: bool = False,
+    no_hydrogens: bool = False,
+    chain: str | Sequence[str] | None = None,
+    scale_radii: float = 1.0,
+) -> Measure:
+    """Return exact areas (n,) in Å² and the volume in Å³ of the union of the balls of ``x``, ``probe`` Å larger.
+
+    Derivatives by the atoms' positions come with it. ``x`` and the options are as for ``molviz.draw``; rows are the
+    atoms that they leave. Raises InputError naming what is wrong, and warns of what is odd.
+    """
+    options = dict(locals())
+    from molviz.geometry.measure import measure_spheres
+
+    loaded = load_one(x, options)
+    tell(loaded.warnings, stacklevel=3)
+    return measure_spheres(loaded.spheres)
+
+
+def visible(
+    x: Any,
+    view: View | None = None,
+    *,
+    model: int | str = 1,
+    assembly: str | None = None,
+    select: str | None = None,
+    no_water: bool = False,
+    no_hydrogens: bool = False,
+    chain: str | Sequence[str] | None = None,
+    radii: str | os.PathLike[str] = "bondi",
+    scale_radii: float = 1.0,
+    probe: float = 0.0,
+) -> Visible:
+    """Return what is seen of ``x`` as arrays, by default along its shortest principal axis.
+
+    ``x`` and the options are as for ``molviz.draw``; rows are the atoms that they leave. Raises InputError naming what
+    is wrong, or if an eye is not in front of all atoms, and warns of what is odd.
+    """
+    options = dict(locals())
+    from molviz.pipeline.views import checked_view
+    from molviz.pipeline.visible import visible_of
+
+    loaded = load_one(x, options)
+    tell(loaded.warnings, stacklevel=3)
+    return visible_of(loaded.spheres, checked_view(view, loaded.spheres))
+
+
+def load_one(x: object, options: Mapping[str, Any]) -> Loaded:
+    """Return the one model of ``x`` that the options mean; raises InputError for what is wrong."""
+    from molviz.errors import InputError
+    from molviz.pipeline.inputs import loaded_from
+    from molviz.pipeline.subject import reading_of
+    from molviz.pipeline.values import input_options_from
+
+    wanted = input_options_from(options)
+    if wanted.model == "all":
+        raise InputError("model: 'all'; expected a number from 1")
+    return loaded_from(reading_of(x), wanted)[0]
+
+
+def tell(notes: Iterable[str], stacklevel: int) -> None:
+    """Warn of what is odd, once of a kind; the warning names the line ``stacklevel`` calls further out."""
+    for note in dict.fromkeys(notes):
+        warnings.warn(note, stacklevel=stacklevel)

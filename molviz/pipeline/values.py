@@ -1,0 +1,178 @@
+"""Options become values: the words of the command line, and what Python callers write in their place.
+
+Every parser takes the text (``"8cm"``, ``"x,30"``, ``"#fff"``) as well as the value it stands for, and raises
+ValueError for anything else; ``…_from`` take all options by name and raise InputError naming the one that is wrong.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
+
+from molviz.errors import InputError
+from molviz.picture.coloring import CONTINUOUS, SCHEMES
+from molviz.picture.page import PAPER, Page, parse_length
+from molviz.picture.picture import Color
+from molviz.picture.style import parse_color
+from molviz.pipeline.inputs import InputOptions
+from molviz.pipeline.views import ViewOptions
+
+Options = Mapping[str, Any]
+T = TypeVar("T")
+
+SMALLEST, LARGEST = 1e-6, 1e9  # of any number given as an option: what lies outside has no picture in doubles
+CHOICES = {
+    "method": ("visible", "painter"),
+    "fill": ("flat", "none"),
+    "orient": ("principal", "file"),
+    "page": ("fit", *PAPER),
+    "color_by": (*SCHEMES, *CONTINUOUS),
+}
+
+
+# ---- from a text or a value
+
+
+def parse_positive(value: Any) -> float:
+    """Return a number above 0."""
+    return _number(value, SMALLEST)
+
+
+def parse_not_negative(value: Any) -> float:
+    """Return a number, 0 or more."""
+    return _number(value, 0.0)
+
+
+def _number(value: Any, least: float) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ValueError(f"{value!r} is not a number") from None
+    if isinstance(value, bool) or not least <= number <= LARGEST:
+        raise ValueError(f"{value!r} is not a number from {least:g} to {LARGEST:g}")
+    return number
+
+
+def parse_width(value: Any) -> float:
+    """Return a length in points; numbers are points."""
+    return parse_length(str(value))
+
+
+def parse_margin(value: Any) -> float:
+    """Return a length in points, which may be 0."""
+    return 0.0 if str(value) in ("0", "0.0") else parse_width(value)
+
+
+def parse_rotation(value: Any) -> tuple[str, float]:
+    """Return axis and degrees of ``"x,30"`` or ``("x", 30)``."""
+    axis, degrees = value.partition(",")[::2] if isinstance(value, str) else _pair(value)
+    if str(axis).strip().lower() not in ("x", "y", "z") or degrees == "":
+        raise ValueError(f"{value!r} is not a rotation; expected an axis and degrees, for example x,30")
+    try:
+        turn = float(degrees)
+    except (TypeError, ValueError):
+        turn = LARGEST
+    if not abs(turn) < LARGEST:
+        raise ValueError(f"{degrees!r} are no degrees; expected a number of at most {LARGEST:g}")
+    return str(axis).strip().lower(), turn
+
+
+def _pair(value: Any) -> tuple[Any, Any]:
+    if not isinstance(value, tuple | list) or len(value) != 2:
+        raise ValueError(f"{value!r} is not a rotation; expected ('x', 30) or 'x,30'")
+    return value[0], value[1]
+
+
+def parse_rotations(value: Any) -> tuple[tuple[str, float], ...]:
+    """Return one rotation or several, in the order in which they are made."""
+    several = isinstance(value, tuple | list) and not (len(value) == 2 and value[0] in ("x", "y", "z"))
+    return tuple(map(parse_rotation, value if several else [value]))
+
+
+def parse_background(value: Any) -> Color | None:
+    """Return a colour, given as text or as (red, green, blue) from 0 to 255; None for ``none``."""
+    if value is None or str(value).lower() == "none":
+        return None
+    if isinstance(value, str):
+        return parse_color(value)
+    channels = tuple(int(channel) for channel in value)
+    if len(channels) != 3 or channels != tuple(value) or not all(0 <= channel <= 255 for channel in channels):
+        raise ValueError(f"{value!r} is not a colour; expected three whole numbers from 0 to 255")
+    return channels
+
+
+def parse_chains(value: Any) -> tuple[str, ...]:
+    """Return the names of ``"A,B"`` or ``["A", "B"]``; none for None."""
+    if not value:
+        return ()
+    return tuple(part.strip() for part in (value.split(",") if isinstance(value, str) else value))
+
+
+def parse_text(value: Any) -> str:
+    """Return a text as it is."""
+    if not isinstance(value, str):
+        raise ValueError(f"{value!r} is no text")
+    return value
+
+
+# ---- from all options by name
+
+
+def input_options_from(options: Options) -> InputOptions:
+    """Return which part of the input is wanted."""
+    return InputOptions(
+        model=str(options["model"]),
+        assembly=given(options, "assembly", parse_text),
+        select=given(options, "select", parse_text),
+        water=not options["no_water"],
+        hydrogens=not options["no_hydrogens"],
+        chains=given(options, "chain", parse_chains) or (),
+        radii=str(options["radii"]),
+        scale_radii=given(options, "scale_radii", parse_positive),
+        probe=given(options, "probe", parse_not_negative),
+        format=options.get("format_"),
+    )
+
+
+def legend_from(options: Options) -> bool:
+    """Return whether a legend is wanted; raises InputError where it has nothing to explain."""
+    if options["legend"] and options["color_by"] not in CONTINUOUS:
+        raise InputError(f"legend: explains numbers; expected color by {' or '.join(CONTINUOUS)}")
+    return bool(options["legend"])
+
+
+def page_from(options: Options) -> Page:
+    """Return the page that is wanted."""
+    return Page(
+        size=chosen(options, "page"),
+        width=given(options, "width", parse_width),
+        scale=given(options, "scale", parse_positive),
+        margin=given(options, "margin", parse_margin),
+    )
+
+
+def view_options_from(options: Options) -> ViewOptions:
+    """Return where the user looks from."""
+    return ViewOptions(
+        orient=chosen(options, "orient"),
+        rotations=given(options, "rotate", parse_rotations) or (),
+        distance=given(options, "perspective", parse_positive),
+    )
+
+
+def chosen(options: Options, name: str) -> str:
+    """Return an option that is one of ``CHOICES``."""
+    value: str = options[name]
+    if value not in CHOICES[name]:
+        raise InputError(f"{name}: {value!r}; expected one of {', '.join(CHOICES[name])}")
+    return value
+
+
+def given(options: Options, name: str, parse: Callable[[Any], T]) -> Any:
+    """Return the parsed value of an option, None where it is None."""
+    if options[name] is None:
+        return None
+    try:
+        return parse(options[name])
+    except ValueError as wrong:
+        raise InputError(f"{name}: {wrong}") from None
+    except (AttributeError, TypeError, OverflowError):
+        raise InputError(f"{name}: {options[name]!r} is of no use here; see help(molviz.draw)") from None

@@ -1,0 +1,54 @@
+"""Where the eye is: the user's options, or a view of their own, become a view of one model."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from molviz.errors import InputError
+from molviz.model.spheres import Spheres
+from molviz.visibility.view import View, file_axes, principal_axes
+
+ORTHOGONAL = 1e-6  # by which the rows of a rotation may miss being unit vectors at right angles
+
+
+@dataclass(frozen=True)
+class ViewOptions:
+    """Where the user looks from."""
+
+    orient: str = "principal"
+    rotations: tuple[tuple[str, float], ...] = ()  # axis of the page, degrees
+    distance: float | None = None  # ångström from the centre, None for a parallel view
+
+
+def view_of(spheres: Spheres, view_options: ViewOptions) -> View:
+    """Return the view that the user's options mean for one model."""
+    axes = principal_axes if view_options.orient == "principal" else file_axes
+    view = axes(spheres, view_options.distance)
+    for axis, degrees in view_options.rotations:
+        view = view.rotated(axis, degrees)
+    return view
+
+
+def checked_view(view: object, spheres: Spheres) -> View:
+    """Return the view given, or that of the principal axes for None.
+
+    Raises InputError where it is no view, its numbers are not finite, or its rotation does more than turn.
+    """
+    if view is None:
+        return principal_axes(spheres)
+    if not isinstance(view, View):
+        raise InputError(f"view: {type(view).__name__}; expected a molviz.View or None")
+    rotation, center = np.asarray(view.rotation, dtype=float), np.asarray(view.center, dtype=float)
+    if not _is_rotation(rotation):
+        raise InputError("view: its rotation is none; expected right-handed unit vectors at right angles, shape (3, 3)")
+    if center.shape != (3,) or not np.isfinite(center).all():
+        raise InputError("view: its center is no point; expected three finite numbers")
+    if view.distance is not None and not 0 < view.distance < np.inf:
+        raise InputError(f"view: its distance is {view.distance}; expected a number above 0, or None")
+    return View(rotation, center, view.distance)
+
+
+def _is_rotation(matrix: "np.ndarray[tuple[int, ...], np.dtype[np.float64]]") -> bool:
+    if matrix.shape != (3, 3) or not np.isfinite(matrix).all():
+        return False
+    return bool(np.allclose(matrix @ matrix.T, np.eye(3), rtol=0, atol=ORTHOGONAL) and np.linalg.det(matrix) > 0)

@@ -1,0 +1,358 @@
+"""The display list of small scenes: layers, shapes, loops and arcs, how wide, in which colours, under which names."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from molviz.curves import PlaneArcs
+from molviz.picture.page import Page
+from molviz.picture.picture import SPREAD, FillLayer, Picture, StackedLayer, StrokeLayer, TextLayer
+from molviz.picture.style import load_style
+from molviz.pipeline.views import ViewOptions
+from tests.oracle import random_spheres
+from tests.pages import balls, named, page, residues, shapes
+
+STYLE = load_style("default")
+SCALE = 40.0  # points per ångström of drawings that are small enough
+ONE = balls((0, 0, 0, 1))
+FUSED = balls((-0.5, 0, 0, 1), (0.5, 0, 0, 1))
+BEFORE = balls((0, 0, 5, 1), (0, 0, 0, 2))
+BESIDE = balls((0, 0, 5, 1), (1.5, 0, 0, 1))
+THREE = balls((-0.6, 0, 0, 1), (0.6, 0, 0, 1), (0, 1, 0, 1))
+GAP = balls((-0.8, 0, 3, 1), (0.8, 0, 7, 1), (0, 0, 0, 1.3))  # the rear ball shows above and below
+OVER_CREASE = balls((0, 0, 5, 0.3), (-0.5, 0, 0, 1), (0.5, 0, 0, 1))
+MIXED = residues(
+    ("B", "CYS", "1", "N", 0.0, 10.0), ("A", "GLY", "1", "C", 2.5, 30.0), ("B", "ALA", "2", "O", 5.0, 50.0),
+    ("B", "CYS", "1", "S", 7.5, 20.0), ("A", "GLY", "1", "Fe", 10.0, 40.0),
+)  # fmt: skip
+LENS = 2 * math.acos(0.5)  # radians of a unit circle inside the one a radius away
+HALF = math.acos(0.75) / math.pi  # half turns: of a unit circle inside one 1.5 away, twice this
+
+
+def turns(layer: FillLayer | StrokeLayer) -> list[list[float]]:
+    """Of each loop the sweeps in half turns, without arcs so short that displacing the balls made them."""
+    return [[sweep for sweep in loop if abs(sweep) > 1e-2] for shape in shapes(layer) for loop in shape.sweeps()]
+
+
+def total(layer: StrokeLayer) -> float:
+    return float(np.abs(layer.paths.arcs.sweep).sum() / math.pi)
+
+
+def test_a_ball_is_a_disc_and_a_circle_in_one_turn_each() -> None:
+    picture = page(ONE)
+    assert [layer.name for layer in picture.layers] == ["atoms", "silhouette"]
+    for layer in picture.layers:
+        assert [shape.sweeps() for shape in shapes(layer)] == [[[2.0]]]
+    assert shapes(picture.layers[0])[0].area() == pytest.approx(math.pi * SCALE**2, rel=1e-3)
+
+
+def test_a_fused_pair_meets_in_one_crease() -> None:
+    layers = named(page(FUSED))
+    assert list(layers) == ["atoms", "crease", "outline", "silhouette"]
+    assert turns(layers["crease"]) == [[pytest.approx(1, abs=1e-3)]]
+    assert total(layers["outline"]) < 0.01  # of the ball that is displaced to the front
+    assert [len(loop) for loop in turns(layers["silhouette"])] == [2]  # one closed path
+    assert total(layers["silhouette"]) == pytest.approx(2 * (2 - LENS / math.pi), abs=1e-3)
+    (left, right) = shapes(layers["atoms"])
+    lens = LENS - math.sin(LENS)
+    assert left.area() == pytest.approx((math.pi - lens / 2) * SCALE**2, rel=1e-3)
+    assert right.area() == pytest.approx(left.area(), rel=1e-3)
+    assert len(left.loops) == len(right.loops) == 1
+
+
+def test_a_ball_before_a_larger_one_leaves_a_ring_with_its_outline_inside() -> None:
+    layers = named(page(BEFORE))
+    assert list(layers) == ["atoms", "outline", "silhouette"]
+    front, ring = shapes(layers["atoms"])
+    assert front.sweeps() == [[2.0]] and sorted(ring.sweeps()) == [[-2.0], [2.0]]
+    assert ring.area() == pytest.approx(3 * front.area(), rel=1e-3)
+    for name, radius in (("outline", 1), ("silhouette", 2)):
+        assert turns(layers[name]) == [[2.0]]
+        assert layers[name].paths.arcs.major() == pytest.approx([radius * SCALE], rel=1e-3)
+
+
+def test_outlines_lie_before_another_ball_and_silhouettes_before_nothing() -> None:
+    layers = named(page(BESIDE))
+    assert turns(layers["outline"]) == [[pytest.approx(2 * HALF, abs=1e-3)]]
+    assert turns(layers["silhouette"]) == [[pytest.approx(2 - 2 * HALF, abs=1e-3)] * 2]
+    middle = layers["outline"].paths.arcs
+    (x, _) = middle.at(middle.start + middle.sweep / 2)[0]
+    centre = layers["silhouette"].paths.arcs.c[:, 0]
+    assert x == pytest.approx(centre.min() + SCALE, abs=0.1)  # it is the front ball's, towards the other
+    rear = [pytest.approx(sweep, abs=1e-3) for sweep in (-2 * HALF, 2 - 2 * HALF)]
+    assert turns(layers["atoms"]) == [[2.0], rear]
+
+
+def test_three_fused_balls_meet_in_three_creases_and_a_point() -> None:
+    layers = named(page(THREE))
+    assert [len(loop) for loop in turns(layers["crease"])] == [1, 1, 1]
+    assert [len(loop) for loop in turns(layers["silhouette"])] == [3]
+    assert total(layers["outline"]) < 0.01
+    assert [len(loop) for loop in turns(layers["atoms"])] == [3, 3, 3]  # one loop each
+    ends = np.concatenate([curves.at(t) for curves in [layers["crease"].paths.arcs]
+                           for t in (curves.start, curves.start + curves.sweep)])  # fmt: skip
+    near = np.linalg.norm(ends[:, None] - ends, axis=2) < 0.1
+    assert sorted(near.sum(axis=1).tolist()) == [1, 1, 1, 3, 3, 3]
+
+
+def test_a_ball_behind_a_gap_is_one_shape_of_two_loops() -> None:
+    layers = named(page(GAP))
+    assert list(layers) == ["atoms", "outline", "silhouette"]
+    assert [len(shape.loops) for shape in shapes(layers["atoms"])] == [1, 1, 2]
+    areas = np.array([1, 1, 1.3]) ** 2 * math.pi * SCALE**2
+    shown = np.array([shape.area() for shape in shapes(layers["atoms"])])
+    assert shown[1] == pytest.approx(areas[1], rel=1e-3)  # the nearest
+    assert (shown[[0, 2]] < 0.95 * areas[[0, 2]]).all() and (shown > 0).all()
+    assert [len(loop) for loop in turns(layers["silhouette"])] == [4]
+    assert [len(loop) for loop in turns(layers["outline"])] == [1, 1, 1]  # the nearest ball's, two of the next
+
+
+@pytest.mark.parametrize("method", ["visible", "painter"])
+def test_arcs_of_one_circle_are_merged_into_one(method: str) -> None:
+    """The small ball's outline crosses the crease behind it twice, and yet it is one turn."""
+    picture = page(OVER_CREASE, method)
+    if method == "visible":
+        layers = named(picture)
+        assert [loop for loop in turns(layers["outline"]) if loop] == [[2.0]]
+        assert shapes(layers["atoms"])[0].sweeps() == [[2.0]]
+        assert [len(loop) for loop in turns(layers["crease"])] == [1, 1]
+    else:
+        (stack,) = picture.layers
+        assert [shape.sweeps() for shape in shapes(stack.fills)][-1] == [[2.0]]
+        assert [shape.sweeps() for shape in shapes(stack.strokes[1])][-1] == [[2.0]]
+
+
+def test_an_outline_past_a_junction_is_one_arc() -> None:
+    """The front ball's outline lies before the second, then before the third: a junction that it passes."""
+    arcs = named(page(balls((0, 0, 9, 1), (1.5, 0, 5, 1), (0.75, 0.9, 0, 0.6))))["outline"].paths.arcs
+    assert len({tuple(row) for row in np.round(arcs.c, 3).tolist()}) == len(arcs.c) == 2  # each ball's is one arc
+
+
+def test_displaced_copies_of_one_outline_are_not_drawn() -> None:
+    """A crescent of two equal balls is 2 d / π wide in the mean when one is d beside the other."""
+    for beside, shown in ((0.0, 1), (0.004, 1), (0.009, 2), (0.05, 2)):
+        layers = named(page(balls((0, 0, 9, 1), (beside, 0, 0, 1))))
+        assert len(shapes(layers["atoms"])) == shown, beside
+        drawn = sum(total(layer) for layer in layers.values() if isinstance(layer, StrokeLayer))
+        assert drawn == pytest.approx(2 if shown == 1 else 3, abs=0.02), beside
+
+
+@pytest.mark.parametrize(("outline", "crease"), [(None, None), (2.0, 0.25), (0.0, None), (None, 0.0), (0.0, 0.0)])
+@pytest.mark.parametrize("method", ["visible", "painter"])
+def test_widths_are_the_styles_unless_asked_for_and_nought_draws_nothing(
+    method: str, outline: float | None, crease: float | None
+) -> None:
+    widths = {"outline": 0.85 if outline is None else outline, "crease": 0.55 if crease is None else crease}
+    if method == "visible":
+        widths["silhouette"] = widths["outline"]
+    (*others,) = page(FUSED, method, outline=outline, crease=crease).layers
+    strokes = others[1:] if method == "visible" else others[0].strokes
+    assert {layer.name: layer.width for layer in strokes} == {name: width for name, width in widths.items() if width}
+    assert all(layer.color == STYLE.line_color == (0x1A, 0x1A, 0x1A) for layer in strokes)
+
+
+def test_lines_of_small_drawings_are_thinner() -> None:
+    layers = named(page(FUSED, page=Page(scale=2.0)))
+    assert layers["silhouette"].width == pytest.approx(0.3) and layers["crease"].width == pytest.approx(0.2)
+    layers = named(page(FUSED, style="print"))
+    assert layers["crease"].width == 0.5 and layers["crease"].color == (0, 0, 0)
+
+
+def test_colours_of_names_are_the_styles() -> None:
+    """Shapes stand by chain and residue in order of appearance: rows 0, 3, 2 of chain B, then 1, 4 of A."""
+    look, elements = STYLE, ["N", "S", "O", "C", "Fe"]
+    expected = {
+        "element": [look.element[symbol] for symbol in elements],
+        "residue": [look.residue[name] for name in ("CYS", "CYS", "ALA", "GLY", "GLY")],
+        "chain": [look.chain[0]] * 3 + [look.chain[1]] * 2,
+        "index": [(0, 0, 1), (0, 0, 4), (0, 0, 3), (0, 0, 2), (0, 0, 5)],
+    }
+    for scheme, colors in expected.items():
+        fills = page(MIXED, color_by=scheme).layers[0]
+        assert list(fills.color) == colors, scheme
+        assert fills.spread == (0.0 if scheme == "index" else SPREAD)
+
+
+def test_numbers_are_coloured_between_the_least_and_the_greatest() -> None:
+    fills = page(MIXED, color_by="bfactor").layers[0]
+    assert list(fills.color) == [STYLE.ramp[k] for k in (0, 1, 4, 2, 3)]
+    inner = page(balls((-1.8, 0, 0, 1), (0, 0, 0, 1), (1.8, 0, 0, 1)), color_by="exposure").layers[0]
+    assert list(inner.color)[1] == STYLE.ramp[0] and STYLE.ramp[-1] in inner.color
+
+
+def test_an_unknown_element_and_a_missing_number_have_the_unknown_colour() -> None:
+    assert page(ONE).layers[0].color == [STYLE.unknown]
+    assert page(ONE, color_by="bfactor").layers[0].color == [STYLE.unknown]
+
+
+def test_shapes_are_grouped_by_chain_and_residue_in_order_of_appearance() -> None:
+    marks = page(MIXED).layers[0].mark
+    assert [mark.id for mark in marks] == ["B1N", "B1S", "B2O", "A1C", "A1Fe"]
+    assert [mark.title for mark in marks] == ["CYS 1 N", "CYS 1 S", "ALA 2 O", "GLY 1 C", "GLY 1 Fe"]
+    assert [mark.classes for mark in marks] == [("N",), ("S",), ("O",), ("C",), ("Fe",)]
+    chain_a, chain_b = ("A", "chain chain-A"), ("B", "chain chain-B")
+    cysteine, alanine = (chain_b, ("CYS 1", "residue CYS")), (chain_b, ("ALA 2", "residue ALA"))
+    glycine = (chain_a, ("GLY 1", "residue GLY"))
+    assert [mark.groups for mark in marks] == [cysteine, cysteine, alanine, glycine, glycine]
+
+
+def test_painted_atoms_carry_their_residues_as_classes() -> None:
+    (stack,) = page(MIXED, "painter").layers
+    marks = {mark.id: mark for mark in stack.fills.mark}
+    assert marks["B1S"].classes == ("S", "CYS", "chain-B") and marks["A1C"].classes == ("C", "GLY", "chain-A")
+    assert all(mark.groups == () for mark in marks.values()) and len(marks) == 5
+
+
+def test_balls_are_called_by_their_numbers() -> None:
+    marks = page(BEFORE).layers[0].mark
+    assert [(mark.id, mark.title, mark.classes, mark.groups) for mark in marks] == [
+        ("X1", "X 1", ("X",), ()), ("X2", "X 2", ("X",), ()),
+    ]  # fmt: skip
+
+
+def test_a_chain_without_a_name_is_a_dash() -> None:
+    (mark,) = page(residues((" ", "HOH", "7", "O", 0.0, 1.0))).layers[0].mark
+    assert mark.groups[0][0] == "-" and mark.groups[1] == ("HOH 7", "residue HOH")
+
+
+def test_a_page_is_a_whole_number_of_points_and_the_box_holds_the_lines() -> None:
+    """40 points per Å, 4 points of margin and half a line: 2 · 40 + 2 (4 + 0.425) = 88.85."""
+    picture = page(ONE)
+    assert (picture.width, picture.height) == (89, 89)
+    assert picture.box == pytest.approx((44.5 - 40.425, 44.5 - 40.425, 44.5 + 40.425, 44.5 + 40.425))
+    arc = named(picture)["silhouette"].paths.arcs
+    assert arc.c[0] == pytest.approx([44.5, 44.5], abs=0.01) and arc.major() == pytest.approx([40], rel=1e-3)
+
+
+def test_the_box_of_a_drawing_without_lines_ends_where_the_fills_do() -> None:
+    """Fills are as wide as half the stroke in their own colour, a mask is not."""
+    for scheme, wide in (("element", 80 + SPREAD), ("index", 80.0)):
+        x0, y0, x1, y1 = page(ONE, color_by=scheme, outline=0.0, crease=0.0).box
+        assert (x1 - x0, y1 - y0) == pytest.approx((wide, wide))
+
+
+@pytest.mark.parametrize(
+    ("wanted", "scale", "size"),
+    [
+        (Page(scale=10.0), 10, (29, 29)),
+        (Page(width=100.0), 50, (109, 109)),
+        (Page(scale=10.0, margin=0.0), 10, (21, 21)),
+        (Page("a4"), (210 * 72 / 25.4 - 2 * 36.425) / 2, (210 * 72 / 25.4, 297 * 72 / 25.4)),
+        (Page("letter", margin=10.0, scale=5.0), 5, (612, 792)),
+    ],
+)
+def test_a_drawing_lies_in_the_middle_of_its_page(wanted: Page, scale: float, size: tuple[float, float]) -> None:
+    picture = page(ONE, page=wanted)
+    arc = named(picture)["silhouette"].paths.arcs
+    assert (picture.width, picture.height) == pytest.approx(size)
+    assert arc.c[0] == pytest.approx(np.array(size) / 2, abs=0.01) and arc.major()[0] == pytest.approx(scale, rel=1e-3)
+
+
+def test_a_page_is_as_large_as_all_balls_hidden_ones_too() -> None:
+    """So a turntable does not jump: the box is that of all images."""
+    apart = page(balls((0, 0, 0, 2), (0.5, 0, -9, 2.2), (0, 0, -20, 2.1)), page=Page(scale=10.0))
+    assert apart.width == math.ceil(10 * (2.7 + 2.1) + 8.85) and apart.height == math.ceil(44 + 8.85)
+
+
+def test_background_and_title_are_handed_on() -> None:
+    picture = page(ONE, background=(1, 2, 3))
+    assert picture.background == (1, 2, 3) and picture.title == "balls" and page(ONE).background is None
+
+
+def test_without_fill_the_map_has_lines_only_and_the_painter_paints_the_background() -> None:
+    assert list(named(page(FUSED, fill="none"))) == ["crease", "outline", "silhouette"]
+    for background, color in ((None, (255, 255, 255)), ((9, 8, 7), (9, 8, 7))):
+        (stack,) = page(FUSED, "painter", fill="none", background=background).layers
+        assert stack.fills.color == [color] * 2
+
+
+def test_a_legend_stands_beside_the_drawing() -> None:
+    plain, picture = page(MIXED, color_by="bfactor"), page(MIXED, color_by="bfactor", legend=True)
+    assert [layer.name for layer in picture.layers] == [*named(plain), "legend", "legend text"]
+    bar, text = picture.layers[-2:]
+    assert isinstance(bar, FillLayer) and isinstance(text, TextLayer)
+    assert picture.width == pytest.approx(plain.width + 90, abs=1) and picture.box[2] == picture.width - 1
+    assert bar.color[0] == STYLE.ramp[0] and bar.color[-1] == STYLE.ramp[-1]
+    boxes = shapes(bar)
+    assert len(boxes) == len(bar.color) == len({mark.id for mark in bar.mark}) and all(b.area() > 0 for b in boxes)
+    assert len({round(b.area(), 6) for b in boxes}) == 1
+    assert [line.text for line in text.texts] == ["10", "30", "50", "B factor, Å²"]
+    corner = bar.paths.arcs.c
+    assert corner[:, 0].min() > plain.box[2] and text.texts[0].x > corner[:, 0].max()
+    low, middle, high = (line.y for line in text.texts[:3])
+    assert middle == pytest.approx((low + high) / 2) and high > middle and text.color == STYLE.line_color
+
+
+def test_the_painter_stacks_every_ball_with_its_own_lines_from_back_to_front() -> None:
+    (stack,) = page(balls((0, 0, 5, 1), (0, 0, 0, 1), (1, 0, 0.5, 1)), "painter", color_by="index").layers
+    assert isinstance(stack, StackedLayer) and stack.name == "atoms"
+    assert [layer.name for layer in stack.strokes] == ["crease", "outline"]
+    assert [mark.id for mark in stack.fills.mark] == ["X2", "X3", "X1"] and stack.fills.color[-1] == (0, 0, 1)
+    fills, creases, outlines = (shapes(layer) for layer in (stack.fills, *stack.strokes))
+    assert [len(rows) for rows in (fills, creases, outlines)] == [3, 3, 3]
+    assert [[len(loop.sweep) for loop in shape.loops] for shape in creases] == [[1], [1], []]
+    assert [[len(loop.sweep) for loop in shape.loops] for shape in outlines] == [[1], [1], [1]]
+    assert fills[2].area() == pytest.approx(math.pi * SCALE**2, rel=1e-3)
+    assert outlines[2].sweeps() == fills[2].sweeps() == [[2.0]]
+
+
+def test_from_an_eye_nearby_a_ball_is_an_ellipse_on_the_page() -> None:
+    """A ball of radius r at height z before an eye at d on the axis: r d / √((d − z)² − r²)."""
+    eye = ViewOptions("file", (), 10.0)
+    arc = named(page(ONE, eye=eye))["silhouette"].paths.arcs
+    assert arc.sweep == pytest.approx([2 * math.pi]) and arc.major()[0] == pytest.approx(40 * 10 / 99**0.5, rel=1e-3)
+    picture = page(balls((-4, 0, 0, 1), (4, 0, 0, 1)), eye=eye, page=Page(scale=SCALE))
+    arc = named(picture)["silhouette"].paths.arcs
+    edge = np.array([math.tan(math.atan(0.4) + sign * math.asin(1 / math.hypot(10, 4))) for sign in (-1, 1)]) * 10
+    assert np.ptp(edge) / 2 * SCALE == pytest.approx(arc.half_extent()[:, 0], rel=1e-3)
+    assert (arc.half_extent()[:, 0] > 1.05 * arc.half_extent()[:, 1]).all()
+
+
+def joints(loop: PlaneArcs) -> tuple[np.ndarray, np.ndarray]:
+    """Where each arc of a loop ends and where the one after it, or at the end the first, starts."""
+    return loop.at(loop.start + loop.sweep), np.roll(loop.at(loop.start), -1, axis=0)
+
+
+def same_circle(loop: PlaneArcs) -> np.ndarray:
+    """Which arcs of a loop continue with the next one on their own circle in their own direction."""
+    columns = np.column_stack([loop.c, loop.u, loop.v, np.sign(loop.sweep)])
+    return (columns == np.roll(columns, -1, axis=0)).all(axis=1)
+
+
+@pytest.mark.parametrize("method", ["visible", "painter"])
+@given(st.integers(0, 10**6), st.integers(2, 25), st.sampled_from([None, 25.0]))
+@settings(max_examples=15)
+def test_pens_run_on_and_never_begin_in_the_middle_of_an_arc(
+    method: str, seed: int, count: int, distance: float | None
+) -> None:
+    """Arcs follow each other end to start, those of one circle are one, and whole circles are whole exactly."""
+    spheres = random_spheres(seed, count, 5.0, 3.0)
+    rows = np.column_stack([spheres.center, spheres.radius]).tolist()
+    for top in page(balls(*rows), method, eye=ViewOptions("file", (), distance)).layers:
+        for layer in [top.fills, *top.strokes] if isinstance(top, StackedLayer) else [top]:
+            for loop in (loop for shape in shapes(layer) for loop in shape.loops):
+                end, start = joints(loop)
+                gap = np.linalg.norm(end - start, axis=1)
+                closed = gap[-1] < 1e-6
+                assert (gap[:-1] < 1e-6).all() and (closed or isinstance(layer, StrokeLayer))
+                assert not same_circle(loop)[: len(gap) if closed and len(gap) > 1 else -1].any()
+                assert len(gap) > 1 or not closed or abs(loop.sweep[0]) == 2 * math.pi
+
+
+def signature(picture: Picture) -> list[Any]:
+    return [(layer.name, layer.paths.shape_start.tolist(), layer.paths.loop_start.tolist()) for layer in picture.layers]
+
+
+def test_the_same_balls_elsewhere_and_in_another_unit_are_the_same_picture() -> None:
+    """Moved by whole numbers and drawn twice as large at half the scale."""
+    rows = [(0, 0, 4, 1), (1.5, 0, 0, 1), (0.5, 1, 0.5, 1.25)]
+    one = page(balls(*rows), page=Page(scale=20.0))
+    for factor, shift in ((1.0, 8.0), (2.0, 0.0), (1024.0, 0.0)):
+        moved = [tuple([factor * (x + shift) for x in row[:3]] + [factor * row[3]]) for row in rows]
+        other = page(balls(*moved), page=Page(scale=20.0 / factor), outline=0.85, crease=0.55)
+        assert signature(one) == signature(other)
+        assert np.allclose(one.layers[-1].paths.arcs.c, other.layers[-1].paths.arcs.c, atol=1e-6)
