@@ -10,10 +10,9 @@ from molviz.geometry.rows import lists_taken, offsets
 from molviz.model.molecule import Molecule
 from molviz.picture.chains import Chains, linked, merged
 from molviz.picture.coloring import CONTINUOUS, atom_colors, order_of_appearance
-from molviz.picture.legend import WIDTH as LEGEND_WIDTH
-from molviz.picture.legend import legend
+from molviz.picture.furniture import Box, Furnished, Furniture, Ramp, furnish
 from molviz.picture.marks import marks
-from molviz.picture.page import Page, Placement, place
+from molviz.picture.page import Page
 from molviz.picture.picture import SPREAD, Color, FillLayer, Layer, Picture, StackedLayer, StrokeLayer
 from molviz.picture.style import Style
 from molviz.visibility.half_edges import Loops, loop_areas
@@ -50,7 +49,8 @@ class Subject:
 
 def picture_of_map(found: VisibilityMap, subject: Subject, options: DrawOptions) -> Picture:
     """Return the drawing of a visibility map: regions that do not overlap, and on top every visible edge once."""
-    placement, widths = _placement(subject, options)
+    furnished, widths = _furnished(subject, options)
+    placement = furnished.placement
     arcs = found.arcs.moved(placement.scale, placement.shift)
     sliver = slivers(found)
     layers: list[Layer] = []
@@ -62,7 +62,7 @@ def picture_of_map(found: VisibilityMap, subject: Subject, options: DrawOptions)
         if width > 0 and len(rows):
             chains = linked(found.origin, found.target, found.circle, rows)
             layers.append(StrokeLayer(name, _paths(arcs, found.circle, chains), width, options.style.line_color))
-    return _picture(subject, options, placement, widths, layers)
+    return _picture(subject, options, furnished, widths, layers)
 
 
 def edge_roles(found: VisibilityMap, sliver: Bools) -> "np.ndarray[tuple[int], np.dtype[np.str_]]":
@@ -135,7 +135,8 @@ def _fills(name: str, paths: Paths, subject: Subject, sphere: Ints, options: Dra
 
 def picture_of_pieces(found: Pieces, subject: Subject, options: DrawOptions) -> Picture:
     """Return the drawing of painter's pieces, back to front, each with the strokes of its own edges."""
-    placement, widths = _placement(subject, options)
+    furnished, widths = _furnished(subject, options)
+    placement = furnished.placement
     arcs = found.arcs.moved(placement.scale, placement.shift)
     rank = np.full(len(subject.atom), -1)
     rank[found.order] = np.arange(len(found.order))
@@ -150,7 +151,7 @@ def picture_of_pieces(found: Pieces, subject: Subject, options: DrawOptions) -> 
         for name, wanted, width in (("crease", found.is_crease, widths[1]), ("outline", ~found.is_crease, widths[0]))
         if width > 0
     ]
-    return _picture(subject, options, placement, widths, [StackedLayer("atoms", fills, strokes)])
+    return _picture(subject, options, furnished, widths, [StackedLayer("atoms", fills, strokes)])
 
 
 def _strokes_of_pieces(
@@ -169,33 +170,35 @@ def _strokes_of_pieces(
     return StrokeLayer(name, Paths(rows, start, offsets(of_chain, len(found.order))), width, options.style.line_color)
 
 
-def _placement(subject: Subject, options: DrawOptions) -> tuple[Placement, tuple[float, float]]:
-    """Where the drawing lies, and the widths of outlines and creases in points."""
+def _furnished(subject: Subject, options: DrawOptions) -> tuple[Furnished, tuple[float, float]]:
+    """Where the drawing and its legend lie, and the widths of outlines and creases in points."""
     style = options.style
     widest = max(style.outline.width if options.outline is None else options.outline, options.crease or 0.0)
-    placement = place(options.page, subject.low, subject.high, widest / 2, LEGEND_WIDTH if options.legend else 0.0)
-    outline = style.outline.at(placement.scale) if options.outline is None else options.outline
-    crease = style.crease.at(placement.scale) if options.crease is None else options.crease
-    return placement, (outline, crease)
+    furniture = Furniture(legend=_ramp(subject, options) if options.legend else None, color=style.line_color)
+    furnished = furnish(options.page, subject.low, subject.high, widest / 2, furniture)
+    outline = style.outline.at(furnished.placement.scale) if options.outline is None else options.outline
+    crease = style.crease.at(furnished.placement.scale) if options.crease is None else options.crease
+    return furnished, (outline, crease)
+
+
+def _ramp(subject: Subject, options: DrawOptions) -> Ramp:
+    """The legend of a scheme of numbers."""
+    known = subject.values[np.isfinite(subject.values)]
+    least, greatest = (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
+    return Ramp(CONTINUOUS[options.color_by], least, greatest, options.style.ramp)
 
 
 def _picture(
-    subject: Subject, options: DrawOptions, placement: Placement, widths: tuple[float, float], layers: list[Layer]
+    subject: Subject, options: DrawOptions, furnished: Furnished, widths: tuple[float, float], layers: list[Layer]
 ) -> Picture:
-    half = max(*widths, 0.0 if options.color_by == "index" else SPREAD) / 2
+    half, placement = max(*widths, 0.0 if options.color_by == "index" else SPREAD) / 2, furnished.placement
     low, high = (placement.scale * corner + placement.shift for corner in (subject.low, subject.high))
-    right = float(high[0] + half)
-    if options.legend:
-        x, middle = right + 16.0, float(low[1] + high[1]) / 2
-        reach = min(float(high[1] - low[1]) / 2 - 12.0, 90.0)
-        layers += legend(subject.values, CONTINUOUS[options.color_by], options.style, x, middle - reach, middle + reach)
-        right = placement.width - 1.0
-    box = (float(low[0] - half), float(low[1] - half), right, float(high[1] + half))
+    box = Box(float(low[0] - half), float(low[1] - half), float(high[0] + half), float(high[1] + half))
     return Picture(
         width=placement.width,
         height=placement.height,
-        box=box,
-        layers=layers,
+        box=box.around(furnished.box) if furnished.box else box,
+        layers=[*layers, *furnished.layers],
         title=subject.molecule.name,
         background=options.background,
     )
