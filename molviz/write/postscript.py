@@ -9,7 +9,11 @@ from molviz.arrays import Bools, Floats, Texts
 from molviz.curves import Paths, PlaneArcs
 from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StackedLayer, StrokeLayer, TextLayer
 from molviz.write.ellipse import THIN, closed_loops, on_axes, with_straight_pieces
-from molviz.write.text import ascii_line, latin_string, number, numbers
+from molviz.write.font import characters, font_of, left, pieces
+from molviz.write.text import ascii_line, number, numbers
+from molviz.write.type42 import Type42, type42
+
+SHOWN = 50  # characters shown at once, four bytes each: no line is longer than 255
 
 # a1 a2 major minor rotation cx cy E (F backwards): the arc is built in the unit circle's frame, then that frame is
 # dropped, so that the pen stays round.
@@ -36,8 +40,7 @@ end
 def write_postscript(picture: Picture) -> bytes:
     """Return the picture as a PostScript page of its own size (DSC 3.0, level 2)."""
     size = f"{number(picture.width)} {number(picture.height)}"
-    setup = ["%%BeginSetup", f"<</PageSize[{size}]>>setpagedevice", "%%EndSetup"]
-    return document(picture, "%!PS-Adobe-3.0", setup)
+    return document(picture, "%!PS-Adobe-3.0", [f"<</PageSize[{size}]>>setpagedevice"])
 
 
 def write_eps(picture: Picture) -> bytes:
@@ -46,10 +49,14 @@ def write_eps(picture: Picture) -> bytes:
 
 
 def document(picture: Picture, header: str, setup: list[str]) -> bytes:
-    """Return the whole document."""
+    """Return the whole document; ``setup`` are lines to be run before the page."""
+    wanted = characters(picture)
+    font = type42(font_of(wanted)) if wanted else None
+    setup = [*(font.lines if font else []), *setup]
+    setup = ["%%BeginSetup", *setup, "%%EndSetup"] if setup else []
     page = ["%%Page: 1 1", "molviz begin gsave 1 setlinecap 1 setlinejoin newpath"]
     trailer = ["grestore end", "showpage", "%%Trailer", "%%EOF"]
-    lines = [header, *comments(picture), PROLOG, *setup, *page, *background(picture), *body(picture), *trailer]
+    lines = [header, *comments(picture), PROLOG, *setup, *page, *background(picture), *body(picture, font), *trailer]
     return ("\n".join(lines) + "\n").encode("ascii")
 
 
@@ -70,11 +77,11 @@ def background(picture: Picture) -> list[str]:
     return [f"{color_text(picture.background)} 0 0 {number(picture.width)} {number(picture.height)} rectfill"]
 
 
-def body(picture: Picture) -> Iterator[str]:
+def body(picture: Picture, font: Type42 | None) -> Iterator[str]:
     """Yield the lines of all layers."""
     for layer in picture.layers:
         yield f"% layer {ascii_line(layer.name)[:200]}"
-        yield from layer_lines(layer)
+        yield from layer_lines(layer, font)
 
 
 def color_text(color: Color) -> str:
@@ -82,10 +89,13 @@ def color_text(color: Color) -> str:
     return "{} {} {} c".format(*color)
 
 
-def layer_lines(layer: Layer) -> Iterator[str]:
-    """Yield the lines of a layer: per shape its title, its colour where it changes, its path."""
+def layer_lines(layer: Layer, font: Type42 | None) -> Iterator[str]:
+    """Yield the lines of a layer: per shape its title, its colour where it changes, its path.
+
+    ``font`` has the characters of all texts.
+    """
     if isinstance(layer, TextLayer):
-        yield from written(layer)
+        yield from written(layer, font) if font else ()
     elif isinstance(layer, StackedLayer):
         yield from stacked(layer)
     elif isinstance(layer, StrokeLayer):
@@ -96,13 +106,12 @@ def layer_lines(layer: Layer) -> Iterator[str]:
         yield from filled(layer)
 
 
-def written(layer: TextLayer) -> Iterator[str]:
-    """Yield lines of text in Helvetica, with all letters of Latin-1."""
-    yield "/Latin/Helvetica findfont dup length dict copy dup/Encoding ISOLatin1Encoding put definefont pop"
+def written(layer: TextLayer, font: Type42) -> Iterator[str]:
+    """Yield lines of text."""
     yield color_text(layer.color)
     for one in layer.texts:
-        text = latin_string(one.text[:50])
-        yield f"/Latin {number(one.size)} selectfont {number(one.x)} {number(one.y)} m ({text}) show"
+        yield f"/{font.name} {number(one.size)} selectfont {number(left(one))} {number(one.y)} m"
+        yield from (f"({font.string(piece)}) show" for piece in pieces(one.text, SHOWN))
 
 
 def pen(layer: StrokeLayer) -> str:

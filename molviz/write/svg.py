@@ -16,6 +16,7 @@ from molviz.write.svg_path import path_data
 from molviz.write.text import clean, number, token
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
+FACES = "Helvetica, Arial, Arimo, 'Liberation Sans', sans-serif"  # all as wide as each other
 OFTEN = 4  # shapes of one colour from which on a class is shorter than the colour itself
 
 
@@ -65,7 +66,7 @@ class Elements:
         group = self.group(layer.name)
         group["inkscape:groupmode"], group["inkscape:label"] = "layer", clean(layer.name)
         if isinstance(layer, TextLayer):
-            group.update({"fill": hexadecimal(layer.color), "font-family": "Helvetica, Arial, sans-serif"})
+            group.update({"fill": hexadecimal(layer.color), "font-family": FACES})
             self.texts(group, layer, height)
         elif isinstance(layer, StrokeLayer):
             group.update(stroke_attributes(layer))
@@ -81,8 +82,9 @@ class Elements:
     def texts(self, group: Group, layer: TextLayer, height: float) -> None:
         """Add lines of text."""
         for one in layer.texts:
+            look = {"font_size": number(one.size)} | ({} if one.anchor == "start" else {"text_anchor": one.anchor})
             place = (number(one.x), number(height - one.y))
-            group.add(Text(clean(one.text), insert=place, font_size=number(one.size), factory=self.drawing))
+            group.add(Text(clean(one.text), insert=place, factory=self.drawing, **look))
 
     def lines(self, layer: Group, data: Sequence[str], marks: Sequence[Mark]) -> None:
         """Add stroked shapes; without marks all of them are one path."""
