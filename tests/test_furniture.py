@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from molviz.errors import InputError
 from molviz.picture.furniture import ROUND, Box, Furnished, Furniture, Label, Ramp, Swatches, furnish
 from molviz.picture.furniture.label_places import Slots, label_places, outline_around
 from molviz.picture.furniture.labels import BESIDE, HEIGHT
@@ -137,6 +138,12 @@ def box_of_text(text: Text) -> Box:
     width = text_width(text.text, text.size)
     x = text.x - {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor] * width
     return Box(x, text.y, x + width, text.y + 0.7 * text.size)
+
+
+def test_a_page_smaller_than_its_furniture_is_told() -> None:
+    many = [Label(0.0, 0.0, f"label {k}") for k in range(400)]
+    with pytest.raises(InputError, match="no room"):
+        furnished(Furniture(labels=many), Page("a4"))
 
 
 def test_without_furniture_nothing_changes() -> None:

@@ -41,22 +41,23 @@ class Slots(NamedTuple):
 def label_places(anchor: Floats, size: Floats, discs: Floats) -> Slots:
     """Return a slot for each label (k) with that anchor (k, 2), outside of discs (n, 3) and anchors, all in points.
 
-    ``size`` (2,) is that of the widest label; the outline is wider than it must be where there are too many.
+    ``size`` (2,) is that of the widest label; the outline is higher than it must be where there are too many: labels are
+    wide, so that most find room one above the other.
     """
     points = np.vstack([discs, np.column_stack([anchor, np.zeros(len(anchor))])])
-    away, slots = AWAY, _slots(points, AWAY, size, ROOMY)
+    higher, slots = 0.0, _slots(points, 0.0, size, ROOMY)
     if len(slots.end) < SPARE * len(anchor):
-        slots = _slots(points, AWAY, size, TIGHT)
+        slots = _slots(points, 0.0, size, TIGHT)
     while len(slots.end) < len(anchor):
-        away += size[1]
-        slots = _slots(points, away, size, TIGHT)
+        higher += size[1]
+        slots = _slots(points, higher, size, TIGHT)
     cost = np.hypot(*(anchor[:, None] - slots.end).transpose(2, 0, 1))
     return slots.take(_exchanged(cost, _shortest_first(cost)))
 
 
-def _slots(points: Floats, away: float, size: Floats, pitch: float) -> Slots:
+def _slots(points: Floats, higher: float, size: Floats, pitch: float) -> Slots:
     """As many slots as there is room for, a quadrant after the other, each from the side to the top or bottom."""
-    outline = outline_around(points, away)
+    outline = outline_around(points, AWAY, higher)
     rows = []
     for side in QUADRANTS:
         part = _quadrant(outline, np.array(side))
@@ -66,14 +67,15 @@ def _slots(points: Floats, away: float, size: Floats, pitch: float) -> Slots:
     return Slots(table[:, :2], table[:, 2:4], table[:, 4:])
 
 
-def outline_around(points: Floats, away: float) -> Floats:
+def outline_around(points: Floats, away: float, higher: float = 0.0) -> Floats:
     """Return corners (k, 2), anticlockwise, of a convex polygon around discs (n, 3), x y r, at least so far away.
 
-    Its sides touch the discs: side k is ``d · p = max (d · c + r) + away`` for one of many directions d.
+    Its sides touch the discs: side k is ``d · p = max (d · c + r) + away + higher |d_y|`` for one of many directions d;
+    the last term widens the polygon by a line of that length upwards and downwards.
     """
     angle = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
     d = np.column_stack([np.cos(angle), np.sin(angle)])
-    h = np.array([(points[:, :2] @ row + points[:, 2]).max() for row in d]) + away
+    h = np.array([(points[:, :2] @ row + points[:, 2]).max() for row in d]) + away + higher * np.abs(d[:, 1])
     after, h_after = np.roll(d, -1, axis=0), np.roll(h, -1)
     area = d[:, 0] * after[:, 1] - d[:, 1] * after[:, 0]
     x = h * after[:, 1] - h_after * d[:, 1]

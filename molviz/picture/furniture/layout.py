@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Floats
+from molviz.errors import InputError
 from molviz.picture.furniture.box import Box, Piece
 from molviz.picture.furniture.labels import Label, labels
 from molviz.picture.furniture.legend import Ramp, Swatches, legend
@@ -65,7 +66,8 @@ def furnish(
     """Return the layout of a drawing from ``low`` to ``high`` (2,) ångström with ``line`` points around it.
 
     Pictures of one set are framed alike with ``at_least`` the largest ``free`` of any of them. Where a page of fixed
-    size is too small for all, the drawing is; a page that fits is as large as needed.
+    size leaves less room, the drawing is smaller; a page that fits is as large as needed. Raises InputError where the
+    furniture alone is larger than the page.
     """
     free, scale = at_least, 0.0
     for _ in range(ROUNDS):
@@ -77,6 +79,8 @@ def furnish(
         if free.or_more(arranged.free) == free:
             break
         free = free.or_more(arranged.free)
+    if free.left + free.right > placement.width or free.bottom + free.top > placement.height:
+        raise InputError(f"page {page.size} has no room for all that stands beside the drawing; expected a larger page")
     layers = [_moved(layer, placement.shift) for layer in arranged.layers]
     box = arranged.box and Box(*(np.array(arranged.box) + np.tile(placement.shift, 2)).tolist())
     return Furnished(placement, layers, box, free)
