@@ -1,5 +1,7 @@
 """PDF: arcs as cubic Béziers within a thousandth of a point, layers that a viewer can switch off."""
 
+import re
+from codecs import BOM_UTF16_BE
 from collections.abc import Iterator
 from io import BytesIO
 
@@ -23,13 +25,16 @@ from molviz.write.pdf_font import embedded
 from molviz.write.text import clean, number, numbers
 
 PLACES = 3
+STRUCTURE = re.compile("trailer|xref|obj|stream|%%EOF")
 
 
 def write_pdf(picture: Picture) -> bytes:
     """Return the picture as PDF 1.7, one page of its own size; no dates and no identifier."""
     pdf, out = pydyf.PDF(), BytesIO()
-    pdf.info.update({"Title": pydyf.String(clean(picture.title)), "Producer": pydyf.String("molviz")})
-    groups = [pydyf.Dictionary({"Type": "/OCG", "Name": pydyf.String(clean(layer.name))}) for layer in picture.layers]
+    pdf.info.update({"Title": text_string(picture.title), "Producer": pydyf.String("molviz")})
+    if picture.description:
+        pdf.info["Subject"] = text_string(picture.description)
+    groups = [pydyf.Dictionary({"Type": "/OCG", "Name": text_string(layer.name)}) for layer in picture.layers]
     wanted = characters(picture)
     font = font_of(wanted) if wanted else None
     content = pydyf.Stream([line.encode() for line in page_lines(picture, font)], compress=True)
@@ -45,6 +50,14 @@ def write_pdf(picture: Picture) -> bytes:
     pdf.add_page(page(pdf, picture, pydyf.Dictionary(resources), content))
     pdf.write(out)
     return out.getvalue()
+
+
+def text_string(text: str) -> pydyf.String | bytes:
+    """Return a text as a PDF string; in hexadecimal where it has a word that some readers look for in the file."""
+    text = clean(text)
+    if STRUCTURE.search(text):
+        return b"<" + (BOM_UTF16_BE + text.encode("utf-16-be")).hex().encode() + b">"
+    return pydyf.String(text)
 
 
 def page(pdf: pydyf.PDF, picture: Picture, resources: pydyf.Dictionary, content: pydyf.Stream) -> pydyf.Dictionary:

@@ -13,6 +13,7 @@ from molviz.write.font import characters, font_of, left, pieces
 from molviz.write.text import ascii_line, number, numbers
 from molviz.write.type42 import Type42, type42
 
+COMMENT = 200  # characters of a name or a description on a line
 SHOWN = 50  # characters shown at once, four bytes each: no line is longer than 255
 
 # a1 a2 major minor rotation cx cy E (F backwards): the arc is built in the unit circle's frame, then that frame is
@@ -66,7 +67,8 @@ def comments(picture: Picture) -> Iterator[str]:
     tight = [math.floor(box[0]), math.floor(box[1]), math.ceil(box[2]), math.ceil(box[3])]
     yield "%%BoundingBox: " + " ".join(map(str, tight))
     yield "%%HiResBoundingBox: " + " ".join(f"{value:.3f}" for value in box)
-    yield f"%%Title: {ascii_line(picture.title)[:200]}"
+    yield f"%%Title: {ascii_line(picture.title)[:COMMENT]}"
+    yield from (f"% drawn by {part}" for part in pieces(ascii_line(picture.description), COMMENT))
     yield from ("%%Creator: molviz", "%%LanguageLevel: 2", "%%DocumentData: Clean7Bit", "%%Pages: 1", "%%EndComments")
 
 
@@ -80,7 +82,7 @@ def background(picture: Picture) -> list[str]:
 def body(picture: Picture, font: Type42 | None) -> Iterator[str]:
     """Yield the lines of all layers."""
     for layer in picture.layers:
-        yield f"% layer {ascii_line(layer.name)[:200]}"
+        yield f"% layer {ascii_line(layer.name)[:COMMENT]}"
         yield from layer_lines(layer, font)
 
 
@@ -160,7 +162,7 @@ def filled(layer: FillLayer) -> Iterator[str]:
 
 def title_line(mark: Mark) -> list[str]:
     """Return the comment that names a shape, if it has a title."""
-    return [f"% {ascii_line(mark.title)[:200]}"] if mark.title else []
+    return [f"% {ascii_line(mark.title)[:COMMENT]}"] if mark.title else []
 
 
 def loop_texts(paths: Paths, filled: bool) -> list[str]:

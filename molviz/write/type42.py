@@ -6,6 +6,7 @@ from molviz.write.font import NAME, Font
 
 FIRST = 128  # the code of the first character beyond ASCII; a font has 256
 LINE = 240  # digits of hexadecimal on a line
+MISSING = "missing"  # name of the glyph at code 0; a program may leave out one that is called .notdef
 
 
 class Type42(NamedTuple):
@@ -40,7 +41,7 @@ def type42(font: Font) -> Type42:
         f"11 dict begin/FontName/{name} def/FontType 42 def/PaintType 0 def/FontMatrix[1 0 0 1 0 0]def",
         f"/FontBBox[{box}]def/Encoding 256 array 0 1 255{{1 index exch/.notdef put}}for",
         *(f"dup {number}/{name} put" for number, _, name in shown),
-        f"def/CharStrings {len(shown) + 1} dict dup begin/.notdef 0 def",
+        f"dup 0/{MISSING} put def/CharStrings {len(shown) + 2} dict dup begin/.notdef 0 def/{MISSING} 0 def",
         *(f"/{name} {glyph} def" for _, glyph, name in shown),
         "end def/sfnts[<",
         *(digits[first : first + LINE] for first in range(0, len(digits), LINE)),
