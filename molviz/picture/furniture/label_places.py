@@ -41,8 +41,8 @@ class Slots(NamedTuple):
 def label_places(anchor: Floats, size: Floats, discs: Floats) -> Slots:
     """Return a slot for each label (k) with that anchor (k, 2), outside of discs (n, 3) and anchors, all in points.
 
-    ``size`` (2,) is that of the widest label; the outline is higher than it must be where there are too many: labels are
-    wide, so that most find room one above the other.
+    ``size`` (2,) is that of the widest label. Where there are too many the outline is higher than it must be: labels
+    are wide, so that most find room one above the other.
     """
     points = np.vstack([discs, np.column_stack([anchor, np.zeros(len(anchor))])])
     higher, slots = 0.0, _slots(points, 0.0, size, ROOMY)
