@@ -11,6 +11,12 @@ import resvg_py
 from PIL import Image
 
 needs_ghostscript = pytest.mark.skipif(which("gs") is None, reason="ghostscript (gs) is not installed")
+needs_pdftotext = pytest.mark.skipif(which("pdftotext") is None, reason="poppler (pdftotext) is not installed")
+
+
+def text_of_pdf(document: bytes) -> str:
+    """Return the text that a reader finds in a PDF when it is searched or copied."""
+    return subprocess.run(["pdftotext", "-", "-"], input=document, capture_output=True, check=True).stdout.decode()
 
 
 def render_svg(svg: bytes, width: int) -> np.ndarray:

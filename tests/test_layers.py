@@ -19,7 +19,13 @@ STAGES = {  # what each stage may import, besides itself and COMMON
     "pipeline": {"model", "readers", "adapters", "geometry", "visibility", "discs", "picture", "write"},
     "cli": {"model", "pipeline", "picture"},
 }
-HOMES = {"click": {"cli"}, "gemmi": {"readers", "model"}, "svgwrite": {"write"}, "pydyf": {"write"}}
+HOMES = {
+    "click": {"cli"},
+    "gemmi": {"readers", "model"},
+    "svgwrite": {"write"},
+    "pydyf": {"write"},
+    "fontTools": {"write"},
+}
 FILES = sorted(path for path in PACKAGE.rglob("*.py") if path.parent != PACKAGE or path.stem in STAGES)
 
 

@@ -1,6 +1,7 @@
 """Where the drawing lies on the page: sizes in points, 72 to the inch."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -34,10 +35,26 @@ class Placement:
     height: float
 
 
-def place(page: Page, low: Floats, high: Floats, line: float, beside: float = 0.0) -> Placement:
+class Margins(NamedTuple):
+    """Points kept free on the four sides of a drawing, the page's own margin not counted."""
+
+    left: float = 0.0
+    bottom: float = 0.0
+    right: float = 0.0
+    top: float = 0.0
+
+    def or_more(self, other: "Margins") -> "Margins":
+        """Return the larger of the two on each side."""
+        return Margins(*map(max, self, other))
+
+
+NO_MARGINS = Margins()
+
+
+def place(page: Page, low: Floats, high: Floats, line: float, free: Margins = NO_MARGINS) -> Placement:
     """Return where a drawing from ``low`` to ``high`` (2,) ångström goes; ``line`` points more around it are painted.
 
-    ``beside`` points on its right are kept free for a legend.
+    ``free`` is the room for what stands beside the drawing.
 
     It is centred, on a page of fixed size as large as the margins let it be unless told otherwise; a page that fits the
     drawing is a whole number of points wide and high, so that it divides into whole pixels.
@@ -45,11 +62,13 @@ def place(page: Page, low: Floats, high: Floats, line: float, beside: float = 0.
     margin = (USUAL_MARGIN[page.size] if page.margin is None else page.margin) + line
     extent = np.maximum(high - low, 1e-9)
     paper = PAPER.get(page.size)
-    room = None if paper is None else np.array(paper) - 2 * margin - [beside, 0.0]
+    taken = np.array([free.left + free.right, free.bottom + free.top])
+    room = None if paper is None else np.array(paper) - 2 * margin - taken
     scale = page.scale or _scale(page, extent, room)
-    needed = extent * scale + 2 * margin + [beside, 0.0]
+    needed = extent * scale + 2 * margin + taken
     width, height = paper or tuple(float(np.ceil(side - 1e-9)) for side in needed)
-    shift = np.array([width - beside, height]) / 2 - scale * (low + high) / 2
+    middle = np.array([width + free.left - free.right, height + free.bottom - free.top]) / 2
+    shift = middle - scale * (low + high) / 2
     return Placement(scale, shift, width, height)
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from molviz.arrays import Floats
 from molviz.curves import Paths
@@ -122,17 +122,21 @@ class ShadeLayer:
 
 @dataclass(frozen=True)
 class Text:
-    """A line of text whose baseline begins at x, y; size in points."""
+    """A line of text whose baseline starts, has its middle or ends (``anchor``) at x, y; size in points.
+
+    Texts come from files: writers escape them.
+    """
 
     x: float
     y: float
     text: str
     size: float
+    anchor: Literal["start", "middle", "end"] = "start"
 
 
 @dataclass(frozen=True)
 class TextLayer:
-    """Lines of text in a sans-serif face of the viewer's, one colour."""
+    """Lines of text in one colour, in a sans-serif face with the widths of Helvetica."""
 
     name: str
     texts: Sequence[Text]

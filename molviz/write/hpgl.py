@@ -1,6 +1,7 @@
 """HPGL for pen plotters: circles as true arcs (``AA``), strokes in an order that saves pen-up travel.
 
-A plotter has no fill and no line width: only stroke layers are drawn, each with its own pen.
+A plotter has no fill and no line width: only strokes and texts are drawn, each layer with its own pen. Texts are
+lettered by the plotter itself (``LB``), in ASCII: accents are dropped, Greek letters spelt out.
 """
 
 import math
@@ -15,13 +16,20 @@ from molviz import toml
 from molviz.arrays import Bools, Floats
 from molviz.curves import Paths, PlaneArcs
 from molviz.errors import InputError
-from molviz.picture.picture import Picture, StrokeLayer
+from molviz.picture.furniture.metrics import CAPITAL, text_width
+from molviz.picture.picture import Picture, StrokeLayer, Text, TextLayer
 from molviz.vectors import cross
+from molviz.write.font import left
 from molviz.write.pen_travel import drawing_order
+from molviz.write.text import plotter_text
 
 CHORD_ERROR = 0.5  # plotter units between a curve and its chords: no plotter resolves less
 ROUND = 1e-9  # relative difference of an ellipse's half-diameters that still counts as a circle
 MARGIN = 0.01  # of the plotting range, on every side
+UNITS_PER_CM = 400.0  # a plotter unit is 0.025 mm
+SMALLEST = 0.01  # centimetres, of letters: less than a pen's width, but not zero
+PITCH = 1.5  # widths from one letter to the next
+END_OF_LABEL = "\x03"  # ETX; nothing else ends a label
 
 
 @dataclass(frozen=True)
@@ -48,11 +56,15 @@ def plotter(model: str = "", paper: str = "") -> Plotter:
 def write_hpgl(picture: Picture, device: Plotter | None = None) -> bytes:
     """Return the picture's strokes as HPGL, as large as fits the plotter's range."""
     device = device or plotter()
-    layers = [layer for layer in picture.layers if isinstance(layer, StrokeLayer)]
+    layers = [layer for layer in picture.layers if isinstance(layer, StrokeLayer | TextLayer)]
     commands = ["IN;"]
     for number, layer in enumerate(layers):
         commands.append(f"SP{number % device.pens + 1};")
-        commands += _strokes(_on_paper(layer.paths, picture, device))
+        scale, shift = _on_paper(picture, device)
+        if isinstance(layer, TextLayer):
+            commands += [_lettered(text, scale, shift) for text in layer.texts]
+        else:
+            commands += _strokes(layer.paths._replace(arcs=layer.paths.arcs.moved(scale, shift)))
     return "\n".join([*commands, "PU;SP0;", ""]).encode("ascii")
 
 
@@ -67,11 +79,22 @@ def _entry(table: dict[str, Any], key: str, kind: str) -> Any:
     return table[key]
 
 
-def _on_paper(paths: Paths, picture: Picture, device: Plotter) -> Paths:
-    """The paths in plotter units, the page centred in the range."""
+def _on_paper(picture: Picture, device: Plotter) -> tuple[float, Floats]:
+    """Plotter units are ``scale × points + shift``, the page centred in the range."""
     scale = (1.0 - 2.0 * MARGIN) * min(device.width / picture.width, device.height / picture.height)
-    shift = np.array([device.width - scale * picture.width, device.height - scale * picture.height]) / 2.0
-    return paths._replace(arcs=paths.arcs.moved(scale, shift))
+    return scale, np.array([device.width - scale * picture.width, device.height - scale * picture.height]) / 2.0
+
+
+def _lettered(text: Text, scale: float, shift: Floats) -> str:
+    """The commands that letter a line of text, as wide as it is in other formats.
+
+    All letters of a plotter have one width w, and step by 1.5 w; sizes are told in centimetres.
+    """
+    line = plotter_text(text.text)
+    width = max(text_width(text.text, text.size) * scale / UNITS_PER_CM / (PITCH * max(len(line), 1)), SMALLEST)
+    height = max(CAPITAL * text.size * scale / UNITS_PER_CM, SMALLEST)
+    start = scale * np.array([left(text), text.y]) + shift
+    return f"PU{_point(start)};SI{_number(width)},{_number(height)};LB{line}{END_OF_LABEL}"
 
 
 def _strokes(paths: Paths) -> list[str]:

@@ -1,5 +1,7 @@
 """PDF: arcs as cubic Béziers within a thousandth of a point, layers that a viewer can switch off."""
 
+import re
+from codecs import BOM_UTF16_BE
 from collections.abc import Iterator
 from io import BytesIO
 
@@ -18,36 +20,49 @@ from molviz.write.ellipse import (
     starts_and_ends,
     with_straight_pieces,
 )
-from molviz.write.text import clean, latin_string, number, numbers
+from molviz.write.font import Font, characters, font_of, left
+from molviz.write.pdf_font import embedded
+from molviz.write.text import clean, number, numbers
 
 PLACES = 3
+STRUCTURE = re.compile("trailer|xref|obj|stream|%%EOF")
 
 
 def write_pdf(picture: Picture) -> bytes:
     """Return the picture as PDF 1.7, one page of its own size; no dates and no identifier."""
     pdf, out = pydyf.PDF(), BytesIO()
-    pdf.info.update({"Title": pydyf.String(clean(picture.title)), "Producer": pydyf.String("molviz")})
-    groups = [pydyf.Dictionary({"Type": "/OCG", "Name": pydyf.String(clean(layer.name))}) for layer in picture.layers]
-    content = pydyf.Stream([line.encode() for line in page_lines(picture)], compress=True)
+    pdf.info.update({"Title": text_string(picture.title), "Producer": pydyf.String("molviz")})
+    if picture.description:
+        pdf.info["Subject"] = text_string(picture.description)
+    groups = [pydyf.Dictionary({"Type": "/OCG", "Name": text_string(layer.name)}) for layer in picture.layers]
+    wanted = characters(picture)
+    font = font_of(wanted) if wanted else None
+    content = pydyf.Stream([line.encode() for line in page_lines(picture, font)], compress=True)
     for part in [*groups, content]:
         pdf.add_object(part)
     references = pydyf.Array([group.reference for group in groups])
     pdf.catalog["OCProperties"] = pydyf.Dictionary(
         {"OCGs": references, "D": pydyf.Dictionary({"Order": references, "ON": references})}
     )
-    properties = pydyf.Dictionary({f"L{k}": group.reference for k, group in enumerate(groups)})
-    pdf.add_page(page(pdf, picture, properties, content))
+    resources = {"Properties": pydyf.Dictionary({f"L{k}": group.reference for k, group in enumerate(groups)})}
+    if font is not None:
+        resources["Font"] = pydyf.Dictionary({"F": embedded(pdf, font).reference})
+    pdf.add_page(page(pdf, picture, pydyf.Dictionary(resources), content))
     pdf.write(out)
     return out.getvalue()
 
 
-def page(pdf: pydyf.PDF, picture: Picture, properties: pydyf.Dictionary, content: pydyf.Stream) -> pydyf.Dictionary:
+def text_string(text: str) -> pydyf.String | bytes:
+    """Return a text as a PDF string; in hexadecimal where it has a word that some readers look for in the file."""
+    text = clean(text)
+    if STRUCTURE.search(text):
+        return b"<" + (BOM_UTF16_BE + text.encode("utf-16-be")).hex().encode() + b">"
+    return pydyf.String(text)
+
+
+def page(pdf: pydyf.PDF, picture: Picture, resources: pydyf.Dictionary, content: pydyf.Stream) -> pydyf.Dictionary:
     """Return the page object."""
     box = pydyf.Array([0, 0, number(picture.width, PLACES), number(picture.height, PLACES)])
-    font = pydyf.Dictionary(
-        {"Type": "/Font", "Subtype": "/Type1", "BaseFont": "/Helvetica", "Encoding": "/WinAnsiEncoding"}
-    )
-    resources = pydyf.Dictionary({"Properties": properties, "Font": pydyf.Dictionary({"F": font})})
     return pydyf.Dictionary(
         {
             "Type": "/Page", "Parent": pdf.pages.reference, "MediaBox": box,
@@ -56,7 +71,7 @@ def page(pdf: pydyf.PDF, picture: Picture, properties: pydyf.Dictionary, content
     )  # fmt: skip
 
 
-def page_lines(picture: Picture) -> Iterator[str]:
+def page_lines(picture: Picture, font: Font | None) -> Iterator[str]:
     """Yield the operators that paint the page."""
     yield "1 J 1 j"
     if picture.background is not None:
@@ -64,7 +79,7 @@ def page_lines(picture: Picture) -> Iterator[str]:
         yield f"{color_text(picture.background)} rg 0 0 {size} re f"
     for row, layer in enumerate(picture.layers):
         yield f"/OC /L{row} BDC"
-        yield from layer_lines(layer)
+        yield from layer_lines(layer, font)
         yield "EMC"
 
 
@@ -73,10 +88,10 @@ def color_text(color: Color) -> str:
     return " ".join(number(value / 255, 4) for value in color)
 
 
-def layer_lines(layer: Layer) -> Iterator[str]:
-    """Yield the operators of a layer."""
+def layer_lines(layer: Layer, font: Font | None) -> Iterator[str]:
+    """Yield the operators of a layer; ``font`` has the characters of all texts."""
     if isinstance(layer, TextLayer):
-        yield from written(layer)
+        yield from written(layer, font) if font else ()
     elif isinstance(layer, StackedLayer):
         yield from stacked(layer)
     elif isinstance(layer, FillLayer):
@@ -87,12 +102,13 @@ def layer_lines(layer: Layer) -> Iterator[str]:
         yield from (f"{shape} S" for shape in shape_texts(layer.paths) if shape)
 
 
-def written(layer: TextLayer) -> Iterator[str]:
-    """Yield lines of text in Helvetica, which every viewer has."""
+def written(layer: TextLayer, font: Font) -> Iterator[str]:
+    """Yield lines of text as numbers of glyphs in hexadecimal, which nothing in a text can leave."""
     yield f"{color_text(layer.color)} rg"
     for one in layer.texts:
-        place = f"{number(one.x, PLACES)} {number(one.y, PLACES)}"
-        yield f"BT /F {number(one.size)} Tf {place} Td ({latin_string(one.text)}) Tj ET"
+        place = f"{number(left(one), PLACES)} {number(one.y, PLACES)}"
+        glyphs = "".join(f"{font.glyph.get(character, 0):04x}" for character in one.text)
+        yield f"BT /F {number(one.size)} Tf {place} Td <{glyphs}> Tj ET"
 
 
 def pen(layer: StrokeLayer) -> str:

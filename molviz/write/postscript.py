@@ -9,7 +9,12 @@ from molviz.arrays import Bools, Floats, Texts
 from molviz.curves import Paths, PlaneArcs
 from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StackedLayer, StrokeLayer, TextLayer
 from molviz.write.ellipse import THIN, closed_loops, on_axes, with_straight_pieces
-from molviz.write.text import ascii_line, latin_string, number, numbers
+from molviz.write.font import characters, font_of, left, pieces
+from molviz.write.text import ascii_line, number, numbers
+from molviz.write.type42 import Type42, type42
+
+COMMENT = 200  # characters of a name or a description on a line
+SHOWN = 50  # characters shown at once, four bytes each: no line is longer than 255
 
 # a1 a2 major minor rotation cx cy E (F backwards): the arc is built in the unit circle's frame, then that frame is
 # dropped, so that the pen stays round.
@@ -36,8 +41,7 @@ end
 def write_postscript(picture: Picture) -> bytes:
     """Return the picture as a PostScript page of its own size (DSC 3.0, level 2)."""
     size = f"{number(picture.width)} {number(picture.height)}"
-    setup = ["%%BeginSetup", f"<</PageSize[{size}]>>setpagedevice", "%%EndSetup"]
-    return document(picture, "%!PS-Adobe-3.0", setup)
+    return document(picture, "%!PS-Adobe-3.0", [f"<</PageSize[{size}]>>setpagedevice"])
 
 
 def write_eps(picture: Picture) -> bytes:
@@ -46,10 +50,14 @@ def write_eps(picture: Picture) -> bytes:
 
 
 def document(picture: Picture, header: str, setup: list[str]) -> bytes:
-    """Return the whole document."""
+    """Return the whole document; ``setup`` are lines to be run before the page."""
+    wanted = characters(picture)
+    font = type42(font_of(wanted)) if wanted else None
+    setup = [*(font.lines if font else []), *setup]
+    setup = ["%%BeginSetup", *setup, "%%EndSetup"] if setup else []
     page = ["%%Page: 1 1", "molviz begin gsave 1 setlinecap 1 setlinejoin newpath"]
     trailer = ["grestore end", "showpage", "%%Trailer", "%%EOF"]
-    lines = [header, *comments(picture), PROLOG, *setup, *page, *background(picture), *body(picture), *trailer]
+    lines = [header, *comments(picture), PROLOG, *setup, *page, *background(picture), *body(picture, font), *trailer]
     return ("\n".join(lines) + "\n").encode("ascii")
 
 
@@ -59,7 +67,8 @@ def comments(picture: Picture) -> Iterator[str]:
     tight = [math.floor(box[0]), math.floor(box[1]), math.ceil(box[2]), math.ceil(box[3])]
     yield "%%BoundingBox: " + " ".join(map(str, tight))
     yield "%%HiResBoundingBox: " + " ".join(f"{value:.3f}" for value in box)
-    yield f"%%Title: {ascii_line(picture.title)[:200]}"
+    yield f"%%Title: {ascii_line(picture.title)[:COMMENT]}"
+    yield from (f"% drawn by {part}" for part in pieces(ascii_line(picture.description), COMMENT))
     yield from ("%%Creator: molviz", "%%LanguageLevel: 2", "%%DocumentData: Clean7Bit", "%%Pages: 1", "%%EndComments")
 
 
@@ -70,11 +79,11 @@ def background(picture: Picture) -> list[str]:
     return [f"{color_text(picture.background)} 0 0 {number(picture.width)} {number(picture.height)} rectfill"]
 
 
-def body(picture: Picture) -> Iterator[str]:
+def body(picture: Picture, font: Type42 | None) -> Iterator[str]:
     """Yield the lines of all layers."""
     for layer in picture.layers:
-        yield f"% layer {ascii_line(layer.name)[:200]}"
-        yield from layer_lines(layer)
+        yield f"% layer {ascii_line(layer.name)[:COMMENT]}"
+        yield from layer_lines(layer, font)
 
 
 def color_text(color: Color) -> str:
@@ -82,10 +91,13 @@ def color_text(color: Color) -> str:
     return "{} {} {} c".format(*color)
 
 
-def layer_lines(layer: Layer) -> Iterator[str]:
-    """Yield the lines of a layer: per shape its title, its colour where it changes, its path."""
+def layer_lines(layer: Layer, font: Type42 | None) -> Iterator[str]:
+    """Yield the lines of a layer: per shape its title, its colour where it changes, its path.
+
+    ``font`` has the characters of all texts.
+    """
     if isinstance(layer, TextLayer):
-        yield from written(layer)
+        yield from written(layer, font) if font else ()
     elif isinstance(layer, StackedLayer):
         yield from stacked(layer)
     elif isinstance(layer, StrokeLayer):
@@ -96,13 +108,12 @@ def layer_lines(layer: Layer) -> Iterator[str]:
         yield from filled(layer)
 
 
-def written(layer: TextLayer) -> Iterator[str]:
-    """Yield lines of text in Helvetica, with all letters of Latin-1."""
-    yield "/Latin/Helvetica findfont dup length dict copy dup/Encoding ISOLatin1Encoding put definefont pop"
+def written(layer: TextLayer, font: Type42) -> Iterator[str]:
+    """Yield lines of text."""
     yield color_text(layer.color)
     for one in layer.texts:
-        text = latin_string(one.text[:50])
-        yield f"/Latin {number(one.size)} selectfont {number(one.x)} {number(one.y)} m ({text}) show"
+        yield f"/{font.name} {number(one.size)} selectfont {number(left(one))} {number(one.y)} m"
+        yield from (f"({font.string(piece)}) show" for piece in pieces(one.text, SHOWN))
 
 
 def pen(layer: StrokeLayer) -> str:
@@ -151,7 +162,7 @@ def filled(layer: FillLayer) -> Iterator[str]:
 
 def title_line(mark: Mark) -> list[str]:
     """Return the comment that names a shape, if it has a title."""
-    return [f"% {ascii_line(mark.title)[:200]}"] if mark.title else []
+    return [f"% {ascii_line(mark.title)[:COMMENT]}"] if mark.title else []
 
 
 def loop_texts(paths: Paths, filled: bool) -> list[str]:

@@ -4,6 +4,7 @@ import gzip
 from collections import Counter
 from collections.abc import Sequence
 from typing import Any
+from xml.etree.ElementTree import Element, SubElement
 
 from svgwrite import Drawing
 from svgwrite.container import Group, Style
@@ -15,7 +16,10 @@ from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, Stack
 from molviz.write.svg_path import path_data
 from molviz.write.text import clean, number, token
 
+DUBLIN_CORE = "http://purl.org/dc/elements/1.1/"
+RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
+FACES = "Helvetica, Arial, Arimo, 'Liberation Sans', sans-serif"  # all as wide as each other
 OFTEN = 4  # shapes of one colour from which on a class is shorter than the colour itself
 
 
@@ -24,7 +28,7 @@ def write_svg(picture: Picture) -> bytes:
     width, height = number(picture.width), number(picture.height)
     drawing = Drawing(size=(f"{width}pt", f"{height}pt"), viewBox=f"0 0 {width} {height}", profile="full", debug=False)
     drawing["xmlns:inkscape"] = INKSCAPE
-    drawing.set_desc(clean(picture.title) or None, clean(picture.description) or None)
+    describe(drawing, picture)
     if picture.background is not None:
         drawing.add(Rect((0, 0), (width, height), fill=hexadecimal(picture.background), factory=drawing))
     elements = Elements(drawing)
@@ -33,6 +37,22 @@ def write_svg(picture: Picture) -> bytes:
     if elements.rules:
         drawing.defs.add(Style("".join(f".{name}{{{rule}}}" for rule, name in elements.rules.items())))
     return f'<?xml version="1.0" encoding="utf-8"?>\n{drawing.tostring()}\n'.encode()
+
+
+def describe(drawing: Drawing, picture: Picture) -> None:
+    """Name the picture for readers who hear it, and say in the metadata what drew it.
+
+    An element with the role of an image is read out as a whole: its texts are told in its description.
+    """
+    said = [text.text for layer in picture.layers if isinstance(layer, TextLayer) for text in layer.texts]
+    drawing["role"] = "img"
+    drawing.set_desc(clean(picture.title) or "Drawing", clean("; ".join(["Drawn by molviz", *said])))
+    if picture.description:
+        data = Element("rdf:RDF", {"xmlns:rdf": RDF, "xmlns:dc": DUBLIN_CORE})
+        work = SubElement(data, "rdf:Description", {"rdf:about": ""})
+        for name, text in (("dc:creator", "molviz"), ("dc:source", picture.description)):
+            SubElement(work, name).text = clean(text)
+        drawing.set_metadata(data)
 
 
 def write_svgz(picture: Picture) -> bytes:
@@ -65,7 +85,7 @@ class Elements:
         group = self.group(layer.name)
         group["inkscape:groupmode"], group["inkscape:label"] = "layer", clean(layer.name)
         if isinstance(layer, TextLayer):
-            group.update({"fill": hexadecimal(layer.color), "font-family": "Helvetica, Arial, sans-serif"})
+            group.update({"fill": hexadecimal(layer.color), "font-family": FACES})
             self.texts(group, layer, height)
         elif isinstance(layer, StrokeLayer):
             group.update(stroke_attributes(layer))
@@ -81,8 +101,9 @@ class Elements:
     def texts(self, group: Group, layer: TextLayer, height: float) -> None:
         """Add lines of text."""
         for one in layer.texts:
+            look = {"font_size": number(one.size)} | ({} if one.anchor == "start" else {"text_anchor": one.anchor})
             place = (number(one.x), number(height - one.y))
-            group.add(Text(clean(one.text), insert=place, font_size=number(one.size), factory=self.drawing))
+            group.add(Text(clean(one.text), insert=place, factory=self.drawing, **look))
 
     def lines(self, layer: Group, data: Sequence[str], marks: Sequence[Mark]) -> None:
         """Add stroked shapes; without marks all of them are one path."""

@@ -1,12 +1,14 @@
 """Numbers and names as text: short, and harmless whatever a file called its atoms."""
 
 import re
+import unicodedata
 from functools import cache
 
 import numpy as np
 
 from molviz.arrays import Floats, Ints, Texts
 
+PLAIN = {"′": "'", "″": "''", "’": "'", "‘": "'", "“": '"', "”": '"', "–": "-", "—": "-", "−": "-", "×": "x", "·": "."}
 NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
@@ -43,10 +45,22 @@ def ascii_line(text: str) -> str:
     return re.sub("[^ -~]", "?", " ".join(text.split()))
 
 
-def latin_string(text: str) -> str:
-    """Return a text as the inside of a PostScript or PDF string: Latin-1, octal where it is not plain ASCII."""
-    codes = " ".join(text.split()).encode("latin-1", "replace")
-    return "".join(chr(code) if 32 <= code < 127 and code not in b"()\\" else f"\\{code:03o}" for code in codes)
+def plotter_text(text: str) -> str:
+    """Return a text in what every plotter can letter: ASCII without the semicolon, which ends commands.
+
+    Letters lose their accents, Greek ones are spelt out, signs become the nearest there is, or ``?``.
+    """
+    return ascii_line("".join(map(_plainly, text))).replace(";", ",")
+
+
+def _plainly(character: str) -> str:
+    """A character in ASCII where there is a way to say it."""
+    name = unicodedata.name(character, "")
+    if name.startswith("GREEK") and "LETTER" in name:
+        word = name.split("LETTER ")[1].split()[0].lower()
+        return word.capitalize() if "CAPITAL" in name else word
+    decomposed = unicodedata.normalize("NFKD", PLAIN.get(character, character))
+    return "".join(part for part in decomposed if not unicodedata.combining(part))
 
 
 @cache
