@@ -4,11 +4,43 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from molviz.arrays import Floats
 from molviz.curves import Paths
 
 SPREAD = 0.24  # points: the usual stroke in a fill's own colour that closes the hairline to its neighbour
 
 Color: TypeAlias = tuple[int, int, int]  # sRGB, 0 to 255 each
+Point: TypeAlias = tuple[float, float]
+Stops: TypeAlias = tuple[tuple[float, Color], ...]  # at least two; offsets ascend from 0 to 1
+
+
+@dataclass(frozen=True)
+class RadialGradient:
+    """The shade of a ball: points relative to its centre, y up.
+
+    Offset 0 is the ``focus``, inside the circle of ``radius`` around the centre, which is offset 1; in between lie
+    the circles that shrink evenly from the one to the other. Outside the circle the last colour goes on.
+    """
+
+    radius: float
+    focus: Point
+    stops: Stops
+
+
+@dataclass(frozen=True)
+class LinearGradient:
+    """The shade of a stick: points relative to its shape's origin, y up; the end colours go on beyond the ends.
+
+    The colour is constant across the line from ``start`` (offset 0) to ``end`` (offset 1).
+    """
+
+    start: Point
+    end: Point
+    stops: Stops
+
+
+Gradient: TypeAlias = RadialGradient | LinearGradient
+Paint: TypeAlias = Color | RadialGradient | LinearGradient  # sRGB, mixed linearly between stops
 
 
 @dataclass(frozen=True)
@@ -28,37 +60,64 @@ class Mark:
 
 @dataclass(frozen=True)
 class FillLayer:
-    """Filled shapes, painted in order; one colour and one mark per shape.
+    """Filled shapes, painted in order; one paint and one mark per shape.
 
     ``spread`` is the width of a stroke in the fill's own colour that closes the hairline which viewers that
-    anti-alias leave between neighbours, in points; 0 for none.
+    anti-alias leave between neighbours, in points; 0 for none. A gradient lies at its shape's ``origin`` (shapes, 2)
+    on the page, so that shapes with equal gradients share one; None where all paints are colours. ``opacity`` is that
+    of the layer as a whole: overlaps do not show. PostScript has none and mixes the paints with white.
     """
 
     name: str
     paths: Paths
-    color: Sequence[Color]
+    paint: Sequence[Paint]
     mark: Sequence[Mark]
     spread: float = 0.0
+    origin: Floats | None = None
+    opacity: float = 1.0
 
 
 @dataclass(frozen=True)
 class StrokeLayer:
-    """Stroked paths of one colour and width in points, with round caps and joins."""
+    """Stroked paths of one colour and width in points, with round caps and joins; ``opacity`` as of a FillLayer."""
 
     name: str
     paths: Paths
     width: float
     color: Color = (0, 0, 0)
     mark: Sequence[Mark] = ()  # empty, or one per shape
+    opacity: float = 1.0
 
 
 @dataclass(frozen=True)
 class StackedLayer:
-    """Fills and strokes with equally many shapes, painted shape by shape: all of shape 0, then of shape 1 over it."""
+    """Fills and strokes with equally many shapes, painted shape by shape: all of shape 0, then of shape 1 over it.
+
+    Shapes hide what is below them: all are opaque, whatever their layers say.
+    """
 
     name: str
     fills: FillLayer
     strokes: Sequence[StrokeLayer]
+
+
+@dataclass(frozen=True)
+class ShadeLayer:
+    """Translucent steps over opaque regions: step after step is painted with its opacity in ``color[k]`` inside clip k.
+
+    ``steps`` has one shape per step in painting order, from the deepest and widest to the contact step. ``tone`` are
+    the opaque regions below, one shape per colour in painting order; those with ``tone_clip`` k cover clip k. Formats
+    without translucency paint the tones again, mixed with the shade, where steps cover them.
+    """
+
+    name: str
+    steps: Paths
+    opacity: Sequence[float]
+    clip: Paths
+    color: Sequence[Color]
+    tone: Paths
+    tone_color: Sequence[Color]
+    tone_clip: Sequence[int]
 
 
 @dataclass(frozen=True)
@@ -80,7 +139,7 @@ class TextLayer:
     color: Color = (0, 0, 0)
 
 
-Layer: TypeAlias = FillLayer | StrokeLayer | StackedLayer | TextLayer
+Layer: TypeAlias = FillLayer | StrokeLayer | StackedLayer | ShadeLayer | TextLayer
 
 
 @dataclass(frozen=True)

@@ -3,32 +3,32 @@
 from collections.abc import Iterator
 from io import BytesIO
 
-import numpy as np
 import pydyf
 
-from molviz.arrays import Bools, Texts
-from molviz.curves import Paths
-from molviz.picture.picture import Color, FillLayer, Layer, Picture, StackedLayer, StrokeLayer, TextLayer
-from molviz.write.ellipse import (
-    bezier_handles,
-    bezier_pieces,
-    closed_loops,
-    in_equal_pieces,
-    on_axes,
-    starts_and_ends,
-    with_straight_pieces,
+from molviz.arrays import Floats
+from molviz.picture.picture import (
+    FillLayer,
+    Gradient,
+    Layer,
+    Paint,
+    Picture,
+    ShadeLayer,
+    StackedLayer,
+    StrokeLayer,
+    TextLayer,
 )
-from molviz.write.text import clean, latin_string, number, numbers
-
-PLACES = 3
+from molviz.write.paint import edge, origins, shares
+from molviz.write.pdf_path import PLACES, shape_texts
+from molviz.write.pdf_resources import Resources
+from molviz.write.text import clean, latin_string, number
 
 
 def write_pdf(picture: Picture) -> bytes:
     """Return the picture as PDF 1.7, one page of its own size; no dates and no identifier."""
-    pdf, out = pydyf.PDF(), BytesIO()
+    pdf, out, names = pydyf.PDF(), BytesIO(), Resources(picture)
     pdf.info.update({"Title": pydyf.String(clean(picture.title)), "Producer": pydyf.String("molviz")})
     groups = [pydyf.Dictionary({"Type": "/OCG", "Name": pydyf.String(clean(layer.name))}) for layer in picture.layers]
-    content = pydyf.Stream([line.encode() for line in page_lines(picture)], compress=True)
+    content = pydyf.Stream([line.encode() for line in page_lines(picture, names)], compress=True)
     for part in [*groups, content]:
         pdf.add_object(part)
     references = pydyf.Array([group.reference for group in groups])
@@ -36,52 +36,61 @@ def write_pdf(picture: Picture) -> bytes:
         {"OCGs": references, "D": pydyf.Dictionary({"Order": references, "ON": references})}
     )
     properties = pydyf.Dictionary({f"L{k}": group.reference for k, group in enumerate(groups)})
-    pdf.add_page(page(pdf, picture, properties, content))
+    pdf.add_page(page(pdf, picture, properties, content, names))
     pdf.write(out)
     return out.getvalue()
 
 
-def page(pdf: pydyf.PDF, picture: Picture, properties: pydyf.Dictionary, content: pydyf.Stream) -> pydyf.Dictionary:
+def page(
+    pdf: pydyf.PDF, picture: Picture, properties: pydyf.Dictionary, content: pydyf.Stream, names: Resources
+) -> pydyf.Dictionary:
     """Return the page object."""
     box = pydyf.Array([0, 0, number(picture.width, PLACES), number(picture.height, PLACES)])
     font = pydyf.Dictionary(
         {"Type": "/Font", "Subtype": "/Type1", "BaseFont": "/Helvetica", "Encoding": "/WinAnsiEncoding"}
     )
-    resources = pydyf.Dictionary({"Properties": properties, "Font": pydyf.Dictionary({"F": font})})
+    fonts = pydyf.Dictionary({"F": font})
+    resources = pydyf.Dictionary({"Properties": properties, "Font": fonts, **names.add_to(pdf)})
     return pydyf.Dictionary(
         {
             "Type": "/Page", "Parent": pdf.pages.reference, "MediaBox": box,
-            "Resources": resources, "Contents": content.reference,
+            "Resources": resources, "Contents": content.reference, **names.page_entries(),
         }
     )  # fmt: skip
 
 
-def page_lines(picture: Picture) -> Iterator[str]:
+def page_lines(picture: Picture, names: Resources) -> Iterator[str]:
     """Yield the operators that paint the page."""
     yield "1 J 1 j"
     if picture.background is not None:
         size = f"{number(picture.width, PLACES)} {number(picture.height, PLACES)}"
-        yield f"{color_text(picture.background)} rg 0 0 {size} re f"
+        yield f"{shares(picture.background)} rg 0 0 {size} re f"
     for row, layer in enumerate(picture.layers):
         yield f"/OC /L{row} BDC"
-        yield from layer_lines(layer)
+        yield from layer_lines(layer, names)
         yield "EMC"
 
 
-def color_text(color: Color) -> str:
-    """Return a colour as three numbers from 0 to 1, fine enough to come back as the same bytes."""
-    return " ".join(number(value / 255, 4) for value in color)
+def layer_lines(layer: Layer, names: Resources) -> Iterator[str]:
+    """Yield the operators of a layer; a translucent one is a form that is painted as a whole."""
+    if isinstance(layer, FillLayer | StrokeLayer) and layer.opacity < 1:
+        form = names.form(opaque_lines(layer, names), True)
+        yield f"q {names.opacity(layer.opacity)} gs {form} Do Q"
+    else:
+        yield from opaque_lines(layer, names)
 
 
-def layer_lines(layer: Layer) -> Iterator[str]:
-    """Yield the operators of a layer."""
+def opaque_lines(layer: Layer, names: Resources) -> Iterator[str]:
+    """Yield the operators of a layer without its opacity."""
     if isinstance(layer, TextLayer):
         yield from written(layer)
     elif isinstance(layer, StackedLayer):
-        yield from stacked(layer)
+        yield from stacked(layer, names)
+    elif isinstance(layer, ShadeLayer):
+        yield from shade_lines(layer, names)
     elif isinstance(layer, FillLayer):
         yield f"{number(layer.spread, PLACES)} w"
-        yield from filled(layer, shape_texts(layer.paths))
+        yield from filled(layer, names)
     else:
         yield pen(layer)
         yield from (f"{shape} S" for shape in shape_texts(layer.paths) if shape)
@@ -89,7 +98,7 @@ def layer_lines(layer: Layer) -> Iterator[str]:
 
 def written(layer: TextLayer) -> Iterator[str]:
     """Yield lines of text in Helvetica, which every viewer has."""
-    yield f"{color_text(layer.color)} rg"
+    yield f"{shares(layer.color)} rg"
     for one in layer.texts:
         place = f"{number(one.x, PLACES)} {number(one.y, PLACES)}"
         yield f"BT /F {number(one.size)} Tf {place} Td ({latin_string(one.text)}) Tj ET"
@@ -97,65 +106,46 @@ def written(layer: TextLayer) -> Iterator[str]:
 
 def pen(layer: StrokeLayer) -> str:
     """Return the operators that set width and colour of the lines of a layer."""
-    return f"{number(layer.width, PLACES)} w {color_text(layer.color)} RG"
+    return f"{number(layer.width, PLACES)} w {shares(layer.color)} RG"
 
 
-def stacked(layer: StackedLayer) -> Iterator[str]:
+def stacked(layer: StackedLayer, names: Resources) -> Iterator[str]:
     """Yield the operators of a stacked layer, shape by shape: its fill, then its strokes over that."""
-    fills, paint = shape_texts(layer.fills.paths), "B" if layer.fills.spread else "f"
+    fills, width = layer.fills, number(layer.fills.spread, PLACES)
+    places, paint = origins(fills), "B" if fills.spread else "f"
     strokes = [(pen(one), shape_texts(one.paths)) for one in layer.strokes]
-    for row, (fill, color) in enumerate(zip(fills, layer.fills.color, strict=True)):
-        text = color_text(color)
-        yield f"{number(layer.fills.spread, PLACES)} w {text} rg {text} RG {fill} {paint}"
+    for row, (shape, fill) in enumerate(zip(shape_texts(fills.paths), fills.paint, strict=True)):
+        if isinstance(fill, tuple):
+            yield f"{width} w {shares(fill)} rg {shares(fill)} RG {shape} {paint}"
+        elif shape:
+            yield f"{width} w {shaded(shape, fill, places[row], fills.spread > 0, names)}"
         yield from (f"{command} {shapes[row]} S" for command, shapes in strokes if shapes[row])
 
 
-def shape_texts(paths: Paths) -> list[str]:
-    """Return the operators of the loops of each shape."""
-    loops, bounds = loop_texts(paths), paths.shape_start.tolist()
-    return ["\n".join(filter(None, loops[first:stop])) for first, stop in zip(bounds, bounds[1:], strict=False)]
-
-
-def filled(layer: FillLayer, shapes: list[str]) -> Iterator[str]:
+def filled(layer: FillLayer, names: Resources) -> Iterator[str]:
     """Yield the filled shapes, with a colour where it changes."""
-    current = None
-    for shape, color in zip(shapes, layer.color, strict=True):
-        if color != current:
-            current, text = color, color_text(color)
+    current: Paint | None = None
+    for shape, paint, place in zip(shape_texts(layer.paths), layer.paint, origins(layer), strict=True):
+        if isinstance(paint, tuple) and paint != current:
+            current, text = paint, shares(paint)
             yield f"{text} rg {text} RG" if layer.spread else f"{text} rg"
-        if shape:
+        if shape and isinstance(paint, tuple):
             yield f"{shape} {'B' if layer.spread else 'f'}"
+        elif shape and not isinstance(paint, tuple):
+            yield shaded(shape, paint, place, layer.spread > 0, names)
 
 
-def loop_texts(paths: Paths) -> list[str]:
-    """Return the operators of each loop, empty where it has no arc."""
-    paths, straight = as_cubics(paths)
-    words, first, stop = arc_texts(paths, straight).tolist(), paths.loop_start[:-1], paths.loop_start[1:]
-    held = stop > first
-    rows = paths.arcs.take(first[held])
-    move = np.full(len(first), "", dtype=object)
-    move[held] = joined(numbers(rows.at(rows.start), PLACES)) + " m\n"
-    bodies = ["\n".join(words[a:b]) for a, b in zip(first.tolist(), stop.tolist(), strict=True)]
-    ends = np.where(closed_loops(paths), " h", "").tolist()
-    return [start + text + end if text else "" for start, text, end in zip(move.tolist(), bodies, ends, strict=True)]
+def shaded(shape: str, gradient: Gradient, place: Floats, spread: bool, names: Resources) -> str:
+    """Return the operators of a shape with a gradient, over a stroke in the colour of its rim if it spreads."""
+    x, y = (number(value) for value in place.tolist())
+    stroke = f"{shares(edge(gradient))} RG {shape} W S" if spread else f"{shape} W n"
+    return f"q {stroke} 1 0 0 1 {x} {y} cm {names.shading(gradient)} sh Q"
 
 
-def as_cubics(paths: Paths) -> tuple[Paths, Bools]:
-    """Return the paths cut so that one cubic or one straight piece stands for each arc, and which are straight."""
-    paths, straight = with_straight_pieces(paths)
-    count = np.where(straight, 1, bezier_pieces(on_axes(paths.arcs).major, paths.arcs.sweep))
-    return in_equal_pieces(paths, count), np.repeat(straight, count)
-
-
-def arc_texts(paths: Paths, straight: Bools) -> Texts:
-    """Return the operator (k,) of each arc."""
-    end = starts_and_ends(paths)[1]
-    points = numbers(np.column_stack([*bezier_handles(paths.arcs), end]), PLACES)
-    return np.asarray(np.where(straight, joined(points[:, 4:]) + " l", joined(points) + " c"), dtype=object)
-
-
-def joined(words: Texts) -> Texts:
-    """Return the rows of words (k, m) as one text (k,) each."""
-    spaced = words.copy()
-    spaced[:, 1:] = " " + spaced[:, 1:]
-    return np.asarray(spaced.sum(axis=1), dtype=object)
+def shade_lines(layer: ShadeLayer, names: Resources) -> Iterator[str]:
+    """Yield the clips, in each of them the form of all steps, which have the colour that is set before."""
+    steps = zip(shape_texts(layer.steps), layer.opacity, strict=True)
+    form = names.form((f"{names.opacity(opacity)} gs {shape} f" for shape, opacity in steps if shape), False)
+    for shape, color in zip(shape_texts(layer.clip), layer.color, strict=True):
+        if shape:
+            yield f"q {shape} W n {shares(color)} rg {form} Do Q"
