@@ -17,6 +17,7 @@ from molviz.picture.picture import (
     Stops,
     StrokeLayer,
 )
+from molviz.vectors import dot
 from molviz.write.text import number
 
 PLACES = 4  # of numbers in a gradient: colours come back as the same bytes
@@ -36,9 +37,43 @@ def origins(layer: FillLayer) -> Floats:
     return np.asarray(np.where(flat[:, None], 0.0, np.round(place, 2)))
 
 
-def edge(gradient: Gradient) -> Color:
-    """Return the colour that closes hairlines where a format cannot stroke with a gradient: that of the rim."""
-    return gradient.stops[-1][1]
+def border_colors(layer: FillLayer) -> list[Color]:
+    """Return what closes the hairlines of each shape where a format cannot stroke with a gradient.
+
+    It is the mean colour of the shape's gradient at the middles of its arcs, or its colour.
+    """
+    loop_shape = np.repeat(np.arange(len(layer.paint)), np.diff(layer.paths.shape_start))
+    shape = np.repeat(loop_shape, np.diff(layer.paths.loop_start))
+    arcs, colors = layer.paths.arcs, list(layer.paint)
+    points = arcs.at(arcs.middle()) - origins(layer)[shape]
+    first = np.searchsorted(shape, np.arange(len(colors) + 1)).tolist()
+    for row, paint in enumerate(layer.paint):
+        if not isinstance(paint, tuple):
+            colors[row] = mean_color(paint, points[first[row] : first[row + 1]])
+    return [color for color in colors if isinstance(color, tuple)]
+
+
+def mean_color(gradient: Gradient, points: Floats) -> Color:
+    """Return the mean colour of a gradient at points (k, 2) relative to its origin, that of its end without points."""
+    offset, table = zip(*gradient.stops, strict=True)
+    at = offsets_at(gradient, points) if len(points) else np.ones(1)
+    red, green, blue = (round(float(np.interp(at, offset, channel).mean())) for channel in zip(*table, strict=True))
+    return red, green, blue
+
+
+def offsets_at(gradient: Gradient, points: Floats) -> Floats:
+    """Return the offsets (k,) of a gradient at points (k, 2); ends go on where the result is below 0 or above 1.
+
+    Circle s of a ball has its centre at ``(1 − s) f`` and radius ``s R``. A point f + d lies on it where
+    ``|d + s f|² = s² R²``, whose larger root is ``(d·f + √((d·f)² + (R² − f²) d²)) / (R² − f²)``.
+    """
+    if isinstance(gradient, LinearGradient):
+        along = np.subtract(gradient.end, gradient.start)
+        return np.asarray((points - gradient.start) @ along / (along @ along))
+    focus = np.array(gradient.focus)
+    d, left = points - focus, gradient.radius**2 - focus @ focus
+    product = d @ focus
+    return np.asarray((product + np.sqrt(product**2 + left * dot(d, d))) / left)
 
 
 def shares(color: Color) -> str:
@@ -71,21 +106,21 @@ def stitched(stops: Stops) -> str:
     return f"<</FunctionType 3/Domain[0 1]/Bounds[{bounds}]/Encode[{encode}]/Functions[\n{pieces}]>>"
 
 
-def opaque(layer: Layer) -> Layer:
-    """Return a layer whose paints are mixed with white, as they would look on white paper."""
+def opaque(layer: Layer, paper: Color) -> Layer:
+    """Return a layer whose paints are mixed with the colour of the paper, as they look where nothing else is below."""
     if isinstance(layer, FillLayer):
-        mixed = {paint: whitened(paint, layer.opacity) for paint in dict.fromkeys(layer.paint)}
-        return replace(layer, paint=[mixed[paint] for paint in layer.paint], opacity=1.0)
+        seen = {paint: mixed(paint, layer.opacity, paper) for paint in dict.fromkeys(layer.paint)}
+        return replace(layer, paint=[seen[paint] for paint in layer.paint], opacity=1.0)
     if isinstance(layer, StrokeLayer):
-        return replace(layer, color=mixed_color((255, 255, 255), layer.color, layer.opacity), opacity=1.0)
+        return replace(layer, color=mixed_color(paper, layer.color, layer.opacity), opacity=1.0)
     return layer
 
 
-def whitened(paint: Paint, opacity: float) -> Paint:
-    """Return a paint of that opacity on white."""
+def mixed(paint: Paint, opacity: float, paper: Color) -> Paint:
+    """Return what is seen of a paint of that opacity on paper."""
     if isinstance(paint, tuple):
-        return mixed_color((255, 255, 255), paint, opacity)
-    stops = tuple((offset, mixed_color((255, 255, 255), color, opacity)) for offset, color in paint.stops)
+        return mixed_color(paper, paint, opacity)
+    stops = tuple((offset, mixed_color(paper, color, opacity)) for offset, color in paint.stops)
     return replace(paint, stops=stops)
 
 

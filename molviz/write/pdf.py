@@ -7,6 +7,7 @@ import pydyf
 
 from molviz.arrays import Floats
 from molviz.picture.picture import (
+    Color,
     FillLayer,
     Gradient,
     Layer,
@@ -17,7 +18,7 @@ from molviz.picture.picture import (
     StrokeLayer,
     TextLayer,
 )
-from molviz.write.paint import edge, origins, shares
+from molviz.write.paint import border_colors, origins, shares
 from molviz.write.pdf_path import PLACES, shape_texts
 from molviz.write.pdf_resources import Resources
 from molviz.write.text import clean, latin_string, number
@@ -112,33 +113,35 @@ def pen(layer: StrokeLayer) -> str:
 def stacked(layer: StackedLayer, names: Resources) -> Iterator[str]:
     """Yield the operators of a stacked layer, shape by shape: its fill, then its strokes over that."""
     fills, width = layer.fills, number(layer.fills.spread, PLACES)
-    places, paint = origins(fills), "B" if fills.spread else "f"
+    places, borders, paint = origins(fills), border_colors(fills), "B" if fills.spread else "f"
     strokes = [(pen(one), shape_texts(one.paths)) for one in layer.strokes]
     for row, (shape, fill) in enumerate(zip(shape_texts(fills.paths), fills.paint, strict=True)):
         if isinstance(fill, tuple):
             yield f"{width} w {shares(fill)} rg {shares(fill)} RG {shape} {paint}"
         elif shape:
-            yield f"{width} w {shaded(shape, fill, places[row], fills.spread > 0, names)}"
+            border = borders[row] if fills.spread else None
+            yield f"{width} w {shaded(shape, fill, places[row], border, names)}"
         yield from (f"{command} {shapes[row]} S" for command, shapes in strokes if shapes[row])
 
 
 def filled(layer: FillLayer, names: Resources) -> Iterator[str]:
     """Yield the filled shapes, with a colour where it changes."""
     current: Paint | None = None
-    for shape, paint, place in zip(shape_texts(layer.paths), layer.paint, origins(layer), strict=True):
+    shapes, places, borders = shape_texts(layer.paths), origins(layer), border_colors(layer)
+    for shape, paint, place, border in zip(shapes, layer.paint, places, borders, strict=True):
         if isinstance(paint, tuple) and paint != current:
             current, text = paint, shares(paint)
             yield f"{text} rg {text} RG" if layer.spread else f"{text} rg"
         if shape and isinstance(paint, tuple):
             yield f"{shape} {'B' if layer.spread else 'f'}"
         elif shape and not isinstance(paint, tuple):
-            yield shaded(shape, paint, place, layer.spread > 0, names)
+            yield shaded(shape, paint, place, border if layer.spread else None, names)
 
 
-def shaded(shape: str, gradient: Gradient, place: Floats, spread: bool, names: Resources) -> str:
-    """Return the operators of a shape with a gradient, over a stroke in the colour of its rim if it spreads."""
+def shaded(shape: str, gradient: Gradient, place: Floats, border: Color | None, names: Resources) -> str:
+    """Return the operators of a shape with a gradient, over a stroke in the colour of its border if it spreads."""
     x, y = (number(value) for value in place.tolist())
-    stroke = f"{shares(edge(gradient))} RG {shape} W S" if spread else f"{shape} W n"
+    stroke = f"{shape} W n" if border is None else f"{shares(border)} RG {shape} W S"
     return f"q {stroke} 1 0 0 1 {x} {y} cm {names.shading(gradient)} sh Q"
 
 

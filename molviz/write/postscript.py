@@ -19,7 +19,7 @@ from molviz.picture.picture import (
     StrokeLayer,
     TextLayer,
 )
-from molviz.write.paint import edge, gradients, opaque, origins, shading
+from molviz.write.paint import border_colors, gradients, opaque, origins, shading
 from molviz.write.postscript_path import shape_texts
 from molviz.write.postscript_shade import SHADE_PROCEDURES, shade_lines
 from molviz.write.text import ascii_line, latin_string, number
@@ -45,7 +45,7 @@ PROLOG = r"""%%BeginProlog
 /w{setlinewidth}bind def
 /c{3{255 div 3 1 roll}repeat setrgbcolor}bind def"""
 
-# A shape with a gradient: gsave, its path, the colour of its rim; k strokes it; S0 x y g paints shading S0 at x, y.
+# A shape with a gradient: gsave, its path, the colour of its border; k strokes it; S0 x y g paints shading S0 at x, y.
 GRADIENT_PROCEDURES = r"""/k{gsave stroke grestore}bind def
 /g{clip newpath translate shfill grestore}bind def"""
 
@@ -64,7 +64,8 @@ def write_eps(picture: Picture) -> bytes:
 
 def document(picture: Picture, header: str, setup: list[str]) -> bytes:
     """Return the whole document."""
-    picture = replace(picture, layers=[opaque(layer) for layer in picture.layers])
+    paper = picture.background or (255, 255, 255)
+    picture = replace(picture, layers=[opaque(layer, paper) for layer in picture.layers])
     names = {gradient: f"S{row}" for row, gradient in enumerate(gradients(picture.layers))}
     page = ["%%Page: 1 1", "molviz begin gsave 1 setlinecap 1 setlinejoin newpath"]
     trailer = ["grestore end", "showpage", "%%Trailer", "%%EOF"]
@@ -146,7 +147,7 @@ def pen(layer: StrokeLayer) -> str:
 def stacked(layer: StackedLayer, names: Names) -> Iterator[str]:
     """Yield the lines of a stacked layer, shape by shape: its fill, then its strokes over that."""
     fills, spread = layer.fills, layer.fills.spread
-    fill_loops, places = shape_texts(fills.paths, True), origins(fills)
+    fill_loops, places, borders = shape_texts(fills.paths, True), origins(fills), border_colors(fills)
     strokes = [(pen(one), shape_texts(one.paths, False)) for one in layer.strokes]
     for shape, loops in enumerate(fill_loops):
         yield from title_line(fills.mark[shape])
@@ -155,7 +156,8 @@ def stacked(layer: StackedLayer, names: Names) -> Iterator[str]:
             yield from (color_text(paint), *loops, f"{number(spread, 3)} w b" if spread else "f")
         else:
             yield f"{number(spread, 3)} w"
-            yield from shaded(loops, paint, spread > 0, f"{names[paint]} {place_text(places[shape])}")
+            border = borders[shape] if spread else None
+            yield from shaded(loops, border, f"{names[paint]} {place_text(places[shape])}")
         for command, texts in strokes:
             if texts[shape]:
                 yield from (command, *(f"{loop} s" for loop in texts[shape]))
@@ -172,12 +174,13 @@ def stroked(layer: StrokeLayer) -> Iterator[str]:
 def filled(layer: FillLayer, names: Names) -> Iterator[str]:
     """Yield the lines of a fill layer."""
     current: Paint | None = None
-    places = origins(layer)
+    places, borders = origins(layer), border_colors(layer)
     for shape, loops in enumerate(shape_texts(layer.paths, True)):
         yield from title_line(layer.mark[shape])
         paint = layer.paint[shape]
         if not isinstance(paint, tuple):
-            yield from shaded(loops, paint, layer.spread > 0, f"{names[paint]} {place_text(places[shape])}")
+            border = borders[shape] if layer.spread else None
+            yield from shaded(loops, border, f"{names[paint]} {place_text(places[shape])}")
             continue
         if paint != current:
             current = paint
@@ -185,11 +188,11 @@ def filled(layer: FillLayer, names: Names) -> Iterator[str]:
         yield from (*loops, "b" if layer.spread else "f")
 
 
-def shaded(loops: list[str], gradient: Gradient, spread: bool, shading_and_place: str) -> Iterator[str]:
-    """Yield the lines of a shape with a gradient, over a stroke in the colour of its rim if it spreads."""
+def shaded(loops: list[str], border: Color | None, shading_and_place: str) -> Iterator[str]:
+    """Yield the lines of a shape with a gradient, over a stroke in the colour of its border if it spreads."""
     yield from ("gsave", *loops)
-    if spread:
-        yield f"{color_text(edge(gradient))} k"
+    if border is not None:
+        yield f"{color_text(border)} k"
     yield f"{shading_and_place} g"
 
 
