@@ -1,8 +1,10 @@
-"""Pictures as pixels, without anti-aliasing: every pixel is some exact colour of the picture."""
+"""Pictures as pixels: without anti-aliasing, so that every pixel is some exact colour of the picture, or as seen."""
 
 import io
 import re
 import subprocess
+import tempfile
+from pathlib import Path
 from shutil import which
 
 import numpy as np
@@ -10,6 +12,9 @@ import pytest
 import resvg_py
 from PIL import Image
 
+CHROMIUM = which("chromium") or which("chromium-browser") or which("google-chrome")
+needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
+needs_poppler = pytest.mark.skipif(which("pdftoppm") is None, reason="poppler (pdftoppm) is not installed")
 needs_ghostscript = pytest.mark.skipif(which("gs") is None, reason="ghostscript (gs) is not installed")
 needs_pdftotext = pytest.mark.skipif(which("pdftotext") is None, reason="poppler (pdftotext) is not installed")
 
@@ -45,4 +50,44 @@ def render_ps(document: bytes, dpi: float) -> np.ndarray:
     command += ["-c", "0 0 .setfilladjust2", "-f", "-"]  # else a fill takes every pixel that it touches
     done = subprocess.run(command, input=document, capture_output=True, check=False)
     assert done.returncode == 0 and not done.stderr, done.stderr.decode(errors="replace")
+    return np.asarray(Image.open(io.BytesIO(done.stdout)).convert("RGB"))
+
+
+def sized(svg: bytes, width: int, height: int) -> bytes:
+    """Return an SVG whose page is so many pixels wide and high."""
+    pixels = re.sub(rb'height="[^"]+pt"', b'height="%d"' % height, svg, count=1)
+    return re.sub(rb'width="[^"]+pt"', b'width="%d"' % width, pixels, count=1)
+
+
+def seen_by_resvg(svg: bytes, width: int, height: int) -> np.ndarray:
+    """Return an SVG with a background as (height, width, 3) bytes, anti-aliased."""
+    png = resvg_py.svg_to_bytes(svg_string=sized(svg, width, height).decode(), skip_system_fonts=True)
+    return np.asarray(Image.open(io.BytesIO(png)).convert("RGB"))
+
+
+def seen_by_chromium(svg: bytes, width: int, height: int) -> np.ndarray:
+    """Return an SVG with a background as (height, width, 3) bytes, as the browser shows it in a page."""
+    with tempfile.TemporaryDirectory() as folder:
+        source, shot = Path(folder) / "picture.svg", Path(folder) / "shot.png"
+        source.write_bytes(sized(svg, width, height))
+        command = [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"]
+        command += ["--force-device-scale-factor=1", f"--user-data-dir={folder}/profile"]
+        command += [f"--window-size={width},{height}", f"--screenshot={shot}", source.as_uri()]
+        subprocess.run(command, capture_output=True, check=True, timeout=120)
+        return np.asarray(Image.open(shot).convert("RGB"))
+
+
+def seen_by_ghostscript(document: bytes, dpi: float) -> np.ndarray:
+    """Return page one of a PS, EPS or PDF as (h, w, 3) bytes, fills anti-aliased; clips never are."""
+    command = ["gs", "-q", "-dSAFER", "-dBATCH", "-dNOPAUSE", "-dEPSCrop", "-sDEVICE=png16m", f"-r{dpi}"]
+    command += ["-dGraphicsAlphaBits=4", "-dPDFSTOPONERROR", "-sOutputFile=%stdout%", "-sstdout=%stderr", "-"]
+    done = subprocess.run(command, input=document, capture_output=True, check=False)
+    assert done.returncode == 0 and not done.stderr, done.stderr.decode(errors="replace")
+    return np.asarray(Image.open(io.BytesIO(done.stdout)).convert("RGB"))
+
+
+def seen_by_poppler(pdf: bytes, dpi: float) -> np.ndarray:
+    """Return page one of a PDF as (h, w, 3) bytes, anti-aliased."""
+    done = subprocess.run(["pdftoppm", "-r", f"{dpi}", "-png", "-"], input=pdf, capture_output=True, check=True)
+    assert not done.stderr, done.stderr.decode(errors="replace")
     return np.asarray(Image.open(io.BytesIO(done.stdout)).convert("RGB"))

@@ -96,7 +96,7 @@ def test_regions_are_painted_in_front_of_what_they_hide() -> None:
     height = len(pixels)
     x, y = np.meshgrid(low[0] + (np.arange(300) + 0.5) * unit, high[1] - (np.arange(height) + 0.5) * unit)
     layer = picture.layers[0]
-    shades = {int(mark.id[1:]): color for mark, color in zip(layer.mark, layer.color, strict=True)}
+    shades = {int(mark.id[1:]): color for mark, color in zip(layer.mark, layer.paint, strict=True)}
     wanted = np.zeros((height, 300, 4))
     for disc in order[::-1]:
         cx, cy, _ = scene.spheres.center[disc]

@@ -65,7 +65,7 @@ class FillLayer:
     ``spread`` is the width of a stroke in the fill's own colour that closes the hairline which viewers that
     anti-alias leave between neighbours, in points; 0 for none. A gradient lies at its shape's ``origin`` (shapes, 2)
     on the page, so that shapes with equal gradients share one; None where all paints are colours. ``opacity`` is that
-    of the layer as a whole: overlaps do not show. PostScript has none and mixes the paints with white.
+    of the layer as a whole: overlaps do not show. PostScript has none and mixes paints with the page's background.
     """
 
     name: str

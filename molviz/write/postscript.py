@@ -2,16 +2,31 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
+from typing import TypeAlias
 
-import numpy as np
-
-from molviz.arrays import Bools, Floats, Texts
-from molviz.curves import Paths, PlaneArcs
-from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StackedLayer, StrokeLayer, TextLayer
-from molviz.write.ellipse import THIN, closed_loops, on_axes, with_straight_pieces
+from molviz.arrays import Floats
+from molviz.picture.picture import (
+    Color,
+    FillLayer,
+    Gradient,
+    Layer,
+    Mark,
+    Paint,
+    Picture,
+    ShadeLayer,
+    StackedLayer,
+    StrokeLayer,
+    TextLayer,
+)
 from molviz.write.font import characters, font_of, left, pieces
-from molviz.write.text import ascii_line, number, numbers
+from molviz.write.paint import border_colors, gradients, opaque, origins, shading
+from molviz.write.postscript_path import shape_texts
+from molviz.write.postscript_shade import SHADE_PROCEDURES, shade_lines
+from molviz.write.text import ascii_line, number
 from molviz.write.type42 import Type42, type42
+
+Names: TypeAlias = dict[Gradient, str]
 
 COMMENT = 200  # characters of a name or a description on a line
 SHOWN = 50  # characters shown at once, four bytes each: no line is longer than 255
@@ -33,9 +48,11 @@ PROLOG = r"""%%BeginProlog
 /s{stroke}bind def
 /b{gsave fill grestore stroke}bind def
 /w{setlinewidth}bind def
-/c{3{255 div 3 1 roll}repeat setrgbcolor}bind def
-end
-%%EndProlog"""
+/c{3{255 div 3 1 roll}repeat setrgbcolor}bind def"""
+
+# A shape with a gradient: gsave, its path, the colour of its border; k strokes it; S0 x y g paints shading S0 at x, y.
+GRADIENT_PROCEDURES = r"""/k{gsave stroke grestore}bind def
+/g{clip newpath translate shfill grestore}bind def"""
 
 
 def write_postscript(picture: Picture) -> bytes:
@@ -55,13 +72,27 @@ def document(picture: Picture, header: str, setup: list[str]) -> bytes:
     font = type42(font_of(wanted)) if wanted else None
     setup = [*(font.lines if font else []), *setup]
     setup = ["%%BeginSetup", *setup, "%%EndSetup"] if setup else []
+    paper = picture.background or (255, 255, 255)
+    picture = replace(picture, layers=[opaque(layer, paper) for layer in picture.layers])
+    names = {gradient: f"S{row}" for row, gradient in enumerate(gradients(picture.layers))}
     page = ["%%Page: 1 1", "molviz begin gsave 1 setlinecap 1 setlinejoin newpath"]
     trailer = ["grestore end", "showpage", "%%Trailer", "%%EOF"]
-    lines = [header, *comments(picture), PROLOG, *setup, *page, *background(picture), *body(picture, font), *trailer]
+    prolog = [PROLOG, *definitions(picture, names), "end", "%%EndProlog"]
+    start = [header, *comments(picture, 3 if names else 2), *prolog, *setup, *page, *background(picture)]
+    lines = [*start, *body(picture, names, font), *trailer]
     return ("\n".join(lines) + "\n").encode("ascii")
 
 
-def comments(picture: Picture) -> Iterator[str]:
+def definitions(picture: Picture, names: Names) -> Iterator[str]:
+    """Yield the procedures and gradients that few pictures need."""
+    if names:
+        yield GRADIENT_PROCEDURES
+    yield from (f"/{name}{shading(gradient)}def" for gradient, name in names.items())
+    if any(isinstance(layer, ShadeLayer) for layer in picture.layers):
+        yield SHADE_PROCEDURES
+
+
+def comments(picture: Picture, level: int) -> Iterator[str]:
     """Yield the header comments; no date, so that the same picture gives the same bytes."""
     box = picture.box if picture.background is None else (0.0, 0.0, picture.width, picture.height)
     tight = [math.floor(box[0]), math.floor(box[1]), math.ceil(box[2]), math.ceil(box[3])]
@@ -69,7 +100,8 @@ def comments(picture: Picture) -> Iterator[str]:
     yield "%%HiResBoundingBox: " + " ".join(f"{value:.3f}" for value in box)
     yield f"%%Title: {ascii_line(picture.title)[:COMMENT]}"
     yield from (f"% drawn by {part}" for part in pieces(ascii_line(picture.description), COMMENT))
-    yield from ("%%Creator: molviz", "%%LanguageLevel: 2", "%%DocumentData: Clean7Bit", "%%Pages: 1", "%%EndComments")
+    yield from ("%%Creator: molviz", f"%%LanguageLevel: {level}", "%%DocumentData: Clean7Bit", "%%Pages: 1")
+    yield "%%EndComments"
 
 
 def background(picture: Picture) -> list[str]:
@@ -79,11 +111,11 @@ def background(picture: Picture) -> list[str]:
     return [f"{color_text(picture.background)} 0 0 {number(picture.width)} {number(picture.height)} rectfill"]
 
 
-def body(picture: Picture, font: Type42 | None) -> Iterator[str]:
+def body(picture: Picture, names: Names, font: Type42 | None) -> Iterator[str]:
     """Yield the lines of all layers."""
     for layer in picture.layers:
         yield f"% layer {ascii_line(layer.name)[:COMMENT]}"
-        yield from layer_lines(layer, font)
+        yield from layer_lines(layer, names, font)
 
 
 def color_text(color: Color) -> str:
@@ -91,7 +123,7 @@ def color_text(color: Color) -> str:
     return "{} {} {} c".format(*color)
 
 
-def layer_lines(layer: Layer, font: Type42 | None) -> Iterator[str]:
+def layer_lines(layer: Layer, names: Names, font: Type42 | None) -> Iterator[str]:
     """Yield the lines of a layer: per shape its title, its colour where it changes, its path.
 
     ``font`` has the characters of all texts.
@@ -99,13 +131,15 @@ def layer_lines(layer: Layer, font: Type42 | None) -> Iterator[str]:
     if isinstance(layer, TextLayer):
         yield from written(layer, font) if font else ()
     elif isinstance(layer, StackedLayer):
-        yield from stacked(layer)
+        yield from stacked(layer, names)
+    elif isinstance(layer, ShadeLayer):
+        yield from shade_lines(layer)
     elif isinstance(layer, StrokeLayer):
         yield pen(layer)
         yield from stroked(layer)
     else:
         yield f"{number(layer.spread, 3)} w"
-        yield from filled(layer)
+        yield from filled(layer, names)
 
 
 def written(layer: TextLayer, font: Type42) -> Iterator[str]:
@@ -121,24 +155,23 @@ def pen(layer: StrokeLayer) -> str:
     return f"{number(layer.width, 3)} w {color_text(layer.color)}"
 
 
-def stacked(layer: StackedLayer) -> Iterator[str]:
+def stacked(layer: StackedLayer, names: Names) -> Iterator[str]:
     """Yield the lines of a stacked layer, shape by shape: its fill, then its strokes over that."""
-    fills, paint = layer.fills, f"{number(layer.fills.spread, 3)} w b" if layer.fills.spread else "f"
-    fill_loops = shape_texts(fills.paths, True)
+    fills, spread = layer.fills, layer.fills.spread
+    fill_loops, places, borders = shape_texts(fills.paths, True), origins(fills), border_colors(fills)
     strokes = [(pen(one), shape_texts(one.paths, False)) for one in layer.strokes]
     for shape, loops in enumerate(fill_loops):
         yield from title_line(fills.mark[shape])
-        yield color_text(fills.paint[shape])
-        yield from (*loops, paint)
+        paint = fills.paint[shape]
+        if isinstance(paint, tuple):
+            yield from (color_text(paint), *loops, f"{number(spread, 3)} w b" if spread else "f")
+        else:
+            yield f"{number(spread, 3)} w"
+            border = borders[shape] if spread else None
+            yield from shaded(loops, border, f"{names[paint]} {place_text(places[shape])}")
         for command, texts in strokes:
             if texts[shape]:
                 yield from (command, *(f"{loop} s" for loop in texts[shape]))
-
-
-def shape_texts(paths: Paths, filled: bool) -> list[list[str]]:
-    """Return the commands of the loops of each shape."""
-    loops, bounds = loop_texts(paths, filled), paths.shape_start.tolist()
-    return [list(filter(None, loops[first:stop])) for first, stop in zip(bounds, bounds[1:], strict=False)]
 
 
 def stroked(layer: StrokeLayer) -> Iterator[str]:
@@ -149,57 +182,36 @@ def stroked(layer: StrokeLayer) -> Iterator[str]:
         yield from (f"{loop} s" for loop in loops)
 
 
-def filled(layer: FillLayer) -> Iterator[str]:
+def filled(layer: FillLayer, names: Names) -> Iterator[str]:
     """Yield the lines of a fill layer."""
-    paint, current = "b" if layer.spread else "f", None
+    current: Paint | None = None
+    places, borders = origins(layer), border_colors(layer)
     for shape, loops in enumerate(shape_texts(layer.paths, True)):
         yield from title_line(layer.mark[shape])
-        if layer.paint[shape] != current:
-            current = layer.paint[shape]
-            yield color_text(current)
-        yield from (*loops, paint)
+        paint = layer.paint[shape]
+        if not isinstance(paint, tuple):
+            border = borders[shape] if layer.spread else None
+            yield from shaded(loops, border, f"{names[paint]} {place_text(places[shape])}")
+            continue
+        if paint != current:
+            current = paint
+            yield color_text(paint)
+        yield from (*loops, "b" if layer.spread else "f")
+
+
+def shaded(loops: list[str], border: Color | None, shading_and_place: str) -> Iterator[str]:
+    """Yield the lines of a shape with a gradient, over a stroke in the colour of its border if it spreads."""
+    yield from ("gsave", *loops)
+    if border is not None:
+        yield f"{color_text(border)} k"
+    yield f"{shading_and_place} g"
+
+
+def place_text(point: Floats) -> str:
+    """Return a point (2,) as two numbers."""
+    return " ".join(number(value) for value in point.tolist())
 
 
 def title_line(mark: Mark) -> list[str]:
     """Return the comment that names a shape, if it has a title."""
     return [f"% {ascii_line(mark.title)[:COMMENT]}"] if mark.title else []
-
-
-def loop_texts(paths: Paths, filled: bool) -> list[str]:
-    """Return the commands of each loop.
-
-    An arc starts a path by itself, but would be joined to the loop before it; a straight piece always needs a start.
-    """
-    paths, straight = with_straight_pieces(paths)
-    words, first, stop = arc_texts(paths.arcs, straight).tolist(), paths.loop_start[:-1], paths.loop_start[1:]
-    held, closed = stop > first, closed_loops(paths)
-    move = np.full(len(first), "", dtype=object)
-    moved = held.copy()
-    moved[held] &= filled | straight[first[held]]
-    rows = paths.arcs.take(first[moved])
-    move[moved] = phrase(rows.at(rows.start)) + " m\n"
-    bounds = zip(first.tolist(), stop.tolist(), strict=True)
-    bodies = ["\n".join(words[a:b]) for a, b in bounds]
-    ends = np.where(closed, " h", "").tolist()
-    return [start + text + end if text else "" for start, text, end in zip(move.tolist(), bodies, ends, strict=True)]
-
-
-def phrase(values: Floats) -> Texts:
-    """Return the rows (k, m) of numbers as texts (k,), separated by spaces."""
-    words = numbers(values)
-    words[:, 1:] = " " + words[:, 1:]
-    return np.asarray(words.sum(axis=1), dtype=object)
-
-
-def arc_texts(arcs: PlaneArcs, straight: Bools) -> Texts:
-    """Return the command (k,) of each arc: circles by centre, radius and angles, ellipses under their own matrix."""
-    axes = on_axes(arcs)
-    rotation, sweep = np.degrees(axes.rotation), np.degrees(axes.sweep)
-    circle = axes.major - axes.minor < THIN
-    start = np.mod(np.degrees(axes.start) + np.where(circle, rotation, 0.0), 360.0)
-    angles, forward = np.column_stack([start, start + sweep]), axes.sweep >= 0
-    as_circle = phrase(np.column_stack([arcs.c, axes.major, angles])) + np.where(forward, " A", " N").astype(object)
-    shape = np.column_stack([angles, axes.major, axes.minor, rotation, arcs.c])
-    as_ellipse = phrase(shape) + np.where(forward, " E", " F").astype(object)
-    as_line = phrase(arcs.at(arcs.start + arcs.sweep)) + " l"
-    return np.asarray(np.where(straight, as_line, np.where(circle, as_circle, as_ellipse)), dtype=object)

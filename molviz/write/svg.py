@@ -6,13 +6,30 @@ from collections.abc import Sequence
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
+import numpy as np
 from svgwrite import Drawing
-from svgwrite.container import Group, Style
+from svgwrite.container import Group, Style, Use
+from svgwrite.masking import ClipPath
 from svgwrite.path import Path
 from svgwrite.shapes import Rect
 from svgwrite.text import Text
 
-from molviz.picture.picture import Color, FillLayer, Layer, Mark, Picture, StackedLayer, StrokeLayer, TextLayer
+from molviz.curves import Paths
+from molviz.picture.picture import (
+    Color,
+    FillLayer,
+    Gradient,
+    Layer,
+    Mark,
+    Paint,
+    Picture,
+    ShadeLayer,
+    StackedLayer,
+    StrokeLayer,
+    TextLayer,
+)
+from molviz.write.paint import origins
+from molviz.write.svg_gradient import gradient_element
 from molviz.write.svg_path import path_data
 from molviz.write.text import clean, number, token
 
@@ -73,6 +90,7 @@ class Elements:
         self.drawing = drawing
         self.taken: Counter[str] = Counter()
         self.rules: dict[str, str] = {}  # style rule → name of the class that stands for it
+        self.servers: dict[Gradient, str] = {}  # gradient → its id
 
     def fresh_id(self, wish: str) -> str:
         """Return a valid id like ``wish`` that this drawing does not have yet."""
@@ -92,10 +110,14 @@ class Elements:
             self.lines(group, path_data(layer.paths, height), layer.mark)
         elif isinstance(layer, FillLayer):
             group.update(spread_attributes(layer.spread))
-            self.regions(group, path_data(layer.paths, height), layer)
+            self.regions(group, layer, height)
+        elif isinstance(layer, ShadeLayer):
+            self.shades(group, layer, height)
         else:
             group.update(spread_attributes(layer.fills.spread))
             self.stacks(group, layer, height)
+        if isinstance(layer, FillLayer | StrokeLayer) and layer.opacity < 1:
+            group["opacity"] = number(layer.opacity, 4)
         return group
 
     def texts(self, group: Group, layer: TextLayer, height: float) -> None:
@@ -114,36 +136,73 @@ class Elements:
             if d:
                 nest.enter(mark.groups).add(self.named(Path(d, factory=self.drawing), mark, ()))
 
-    def regions(self, layer: Group, data: Sequence[str], fills: FillLayer) -> None:
+    def regions(self, layer: Group, fills: FillLayer, height: float) -> None:
         """Add filled shapes in their groups."""
         nest, looks = Nest(self, layer), self.looks(fills)
-        for d, mark, color in zip(data, fills.mark, fills.paint, strict=True):
-            if d:
-                name, attributes = looks[color]
-                path = Path(d, factory=self.drawing, **attributes)
+        for path, mark, paint in zip(self.fill_paths(fills, height), fills.mark, fills.paint, strict=True):
+            if path is not None:
+                name, attributes = looks[paint]
+                path.update(attributes)
                 nest.enter(mark.groups).add(self.named(path, mark, name))
+
+    def fill_paths(self, fills: FillLayer, height: float) -> list[Any]:
+        """Return the element of each filled shape, None where nothing is left.
+
+        One with a gradient is drawn about its origin, where the gradient is, and then moved.
+        """
+        data, places = path_data(about_origins(fills, height), height), origins(fills).tolist()
+        paths = [Path(d, factory=self.drawing) if d else None for d in data]
+        for path, paint, (x, y) in zip(paths, fills.paint, places, strict=True):
+            if path is not None and not isinstance(paint, tuple):
+                path["transform"] = f"translate({number(x)},{number(height - y)})"
+        return paths
+
+    def shades(self, group: Group, layer: ShadeLayer, height: float) -> None:
+        """Add translucent steps, written once, in the colour of each clip inside it."""
+        steps = self.group(f"{layer.name} steps")
+        for d, opacity in zip(path_data(layer.steps, height), layer.opacity, strict=True):
+            steps.add(Path(d, opacity=number(opacity, 4), factory=self.drawing))
+        self.drawing.defs.add(steps)
+        for d, color in zip(path_data(layer.clip, height), layer.color, strict=True):
+            clip = ClipPath(id=self.fresh_id(f"{layer.name} clip"), factory=self.drawing)
+            clip.add(Path(d, factory=self.drawing))
+            self.drawing.defs.add(clip)
+            inside = Group(clip_path=clip.get_funciri(), fill=hexadecimal(color), factory=self.drawing)
+            inside.add(Use(steps.get_iri(), factory=self.drawing))
+            group.add(inside)
 
     def stacks(self, layer: Group, stacked: StackedLayer, height: float) -> None:
         """Add one group per shape: its fill, and its strokes over that."""
-        fills, looks = path_data(stacked.fills.paths, height), self.looks(stacked.fills)
+        fills, looks = self.fill_paths(stacked.fills, height), self.looks(stacked.fills)
         strokes = [(self.rule(stroke_rule(one)), path_data(one.paths, height)) for one in stacked.strokes]
-        for row, (mark, color) in enumerate(zip(stacked.fills.mark, stacked.fills.paint, strict=True)):
-            name, attributes = looks[color]
+        for row, (mark, paint) in enumerate(zip(stacked.fills.mark, stacked.fills.paint, strict=True)):
+            name, attributes = looks[paint]
             group = self.named(Group(factory=self.drawing, **attributes), mark, name)
-            group.add(Path(fills[row], factory=self.drawing))
+            if fills[row] is not None:
+                group.add(fills[row])
             for stroke, data in strokes:
                 if data[row]:
                     group.add(Path(data[row], class_=stroke, factory=self.drawing))
             layer.add(group)
 
-    def looks(self, fills: FillLayer) -> dict[Color, tuple[tuple[str, ...], dict[str, str]]]:
-        """Return classes and attributes that give a shape each colour: a class for those that come often."""
-        looks: dict[Color, tuple[tuple[str, ...], dict[str, str]]] = {}
-        for color, times in Counter(fills.paint).items():
-            look = fill_attributes(color, fills.spread)
+    def looks(self, fills: FillLayer) -> dict[Paint, tuple[tuple[str, ...], dict[str, str]]]:
+        """Return classes and attributes that give a shape each paint: a class for those that come often."""
+        looks: dict[Paint, tuple[tuple[str, ...], dict[str, str]]] = {}
+        for paint, times in Counter(fills.paint).items():
+            look = fill_attributes(self.paint_text(paint), fills.spread)
             rule = ";".join(f"{name}:{value}" for name, value in look.items())
-            looks[color] = ((self.rule(rule),), {}) if times >= OFTEN else ((), look)
+            looks[paint] = ((self.rule(rule),), {}) if times >= OFTEN else ((), look)
         return looks
+
+    def paint_text(self, paint: Paint) -> str:
+        """Return a paint as the value of an attribute; a gradient is defined where it is first met."""
+        if isinstance(paint, tuple):
+            return hexadecimal(paint)
+        if paint not in self.servers:
+            element = gradient_element(paint, self.fresh_id("gradient"))
+            self.drawing.defs.add(element)
+            self.servers[paint] = element.get_funciri()
+        return self.servers[paint]
 
     def rule(self, text: str) -> str:
         """Return the class with that style rule."""
@@ -184,9 +243,20 @@ class Nest:
         return self.open[-1]
 
 
-def fill_attributes(color: Color, spread: float) -> dict[str, str]:
-    """Return how a filled shape looks; the stroke of the spread has the fill's colour."""
-    fill = hexadecimal(color)
+def about_origins(fills: FillLayer, height: float) -> Paths:
+    """Return the paths so that, with y down, the origins of gradients are at 0, 0; others as they are."""
+    gradient = np.array([not isinstance(paint, tuple) for paint in fills.paint], dtype=bool)
+    if not gradient.any():
+        return fills.paths
+    loop_shape = np.repeat(np.arange(len(gradient)), np.diff(fills.paths.shape_start))
+    shape = np.repeat(loop_shape, np.diff(fills.paths.loop_start))
+    shift = np.where(gradient[:, None], [0.0, height] - origins(fills), 0.0)
+    arcs = fills.paths.arcs
+    return fills.paths._replace(arcs=arcs._replace(c=arcs.c + shift[shape]))
+
+
+def fill_attributes(fill: str, spread: float) -> dict[str, str]:
+    """Return how a filled shape looks; the stroke of the spread has the fill's paint."""
     return {"fill": fill, "stroke": fill} if spread else {"fill": fill}
 
 
