@@ -1,5 +1,7 @@
 """``molviz draw``: pictures of molecules."""
 
+import shlex
+import sys
 import time
 from pathlib import Path, PurePath
 from typing import Any
@@ -7,18 +9,19 @@ from typing import Any
 import click
 
 from molviz.cli.batch import for_each
-from molviz.cli.options import applied, eye_options, input_options, load_and_warn, page_options, shared
+from molviz.cli.options import Parsed, applied, eye_options, input_options, load_and_warn, page_options, shared
 from molviz.cli.progress import Progress
-from molviz.errors import InputError
-from molviz.picture.compose import DrawOptions
+from molviz.picture.palette import PALETTES
 from molviz.picture.style import STYLES
-from molviz.pipeline.draw import Drawing, draw_options_from, drawing_of, suffixes
+from molviz.pipeline.draw import Drawing, DrawRequest, draw_request_from, drawing_of, suffixes
 from molviz.pipeline.inputs import InputOptions, only_model
 from molviz.pipeline.outputs import save, target_of
-from molviz.pipeline.values import input_options_from, legend_from, view_options_from
+from molviz.pipeline.values import input_options_from, parse_scale_bar, view_options_from
 from molviz.pipeline.views import ViewOptions
 
 STAGES = 3  # reading, what is seen, writing
+
+SCALE_BAR = Parsed("ångström", parse_scale_bar)
 
 output_options = applied(
     click.option("-o", "--output", metavar="FILE", help="Its suffix is the format; many: a folder or {stem}."),
@@ -27,9 +30,16 @@ output_options = applied(
 drawing_options = applied(
     shared("method", show_default=True),
     shared("check", help="Verify the invariants of the visibility map first."),
-    shared("style", show_default=True, metavar="NAME|FILE.toml", help=f"One of {STYLES}."),
-    shared("color_by", show_default=True),
-    shared("legend", help="A legend for colours by bfactor or exposure."),
+    shared("style", show_default=True, metavar="NAME|FILE.toml", help=f"auto, {', '.join(STYLES)}, or a file."),
+    shared("color_by", show_default=True, help="What colours mean; auto: entities of polymers, else elements."),
+    shared("color", multiple=True, metavar="SELECTION=COLOR", help="Over any scheme; repeatable, the last one wins."),
+    shared("palette", show_default=True, metavar="NAME|FILE.toml", help=f"{', '.join(PALETTES)}, or a file."),
+    shared("parts", help="A region for each atom, or one for all of a colour and chain (default: the style's)."),
+    shared("label", multiple=True, metavar="SELECTION[=TEXT]", help="{resn} {resi} {name} {chain} {element} in TEXT."),
+    shared("scale_bar", type=SCALE_BAR, is_flag=False, flag_value="auto", metavar="[ÅNGSTRÖM]", help="A scale bar."),
+    shared("title", metavar="TEXT", help="Written above the drawing."),
+    shared("legend", help="What the colours mean."),
+    shared("water", help="Draw water, which is left out otherwise if there is anything else."),
     eye_options,
     page_options,
 )
@@ -43,7 +53,7 @@ plotter_options = applied(
 @click.argument("inputs", nargs=-1, required=True, metavar="INPUT...")
 @output_options
 @drawing_options
-@shared("fill", show_default=True)
+@shared("fill", help="Regions filled or not (default: the style's).")
 @plotter_options
 @input_options
 def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
@@ -52,7 +62,7 @@ def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
     \b
     Examples:
       molviz draw caffeine.xyz -o caffeine.svg
-      molviz draw 4hhb.pdb --color-by chain --no-water -o 4hhb.ps
+      molviz draw 4hhb.pdb --color 'resn HEM=crimson' --label 'resn HEM' -o 4hhb.ps
       molviz draw *.cif -o 'pictures/{stem}.pdf'
     """
     run_drawings(inputs, options)
@@ -60,8 +70,8 @@ def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
 
 def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     """Draw every input with the options of ``draw``."""
-    refuse_idle_legend(options)
-    wanted, look, eye = input_options_from(options), draw_options_from(options), view_options_from(options)
+    look = draw_request_from(options, drawn_by())
+    wanted, eye = input_options_from(options), view_options_from(options)
     suffix, output = suffix_of(options["output"], options["to"]), options["output"] or "-"
     refuse_shared_targets(inputs, output, suffix)
 
@@ -71,12 +81,9 @@ def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     for_each(inputs, one)
 
 
-def refuse_idle_legend(options: dict[str, Any]) -> None:
-    """Raise UsageError where a legend has nothing to explain."""
-    try:
-        legend_from(options)
-    except InputError as wrong:
-        raise click.UsageError(f"--{wrong}") from None
+def drawn_by() -> str:
+    """Return the command line that draws, as it may be typed again."""
+    return shlex.join(["molviz", *sys.argv[1:]])
 
 
 def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str) -> None:
@@ -90,7 +97,7 @@ def _draw_one(
     target: str,
     suffix: str,
     wanted: InputOptions,
-    look: DrawOptions,
+    look: DrawRequest,
     eye: ViewOptions,
     options: dict[str, Any],
 ) -> None:

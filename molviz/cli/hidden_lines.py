@@ -75,6 +75,8 @@ def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
         raise click.UsageError(f"no fill {options['fill']!r}; expected flat or none")
     if sum([bool(inputs), options["count"] is not None, options["text"] is not None]) != 1:
         raise click.UsageError("nothing to draw, or two things; expected INPUT, --random or --text")
+    if options["style"] == "auto":
+        options["style"] = "flat"
     if not inputs:
         _discs(options["output"], partial(_scene, options), options)
     elif options["kind"] == "discs":

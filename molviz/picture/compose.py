@@ -1,6 +1,6 @@
 """Geometry becomes a picture: what things are comes in, what they look like is decided here, layer by layer."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -9,14 +9,13 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths, PlaneArcs
 from molviz.geometry.planar_map import Loops
 from molviz.geometry.rows import offsets
-from molviz.model.entities import Entities, entities_of
 from molviz.model.molecule import Molecule
+from molviz.picture.captions import labels_of, legend_of
 from molviz.picture.chains import linked, merged
-from molviz.picture.coloring import CONTINUOUS, AtomColors, ColorSubject, atom_colors, order_of_appearance
+from molviz.picture.coloring import order_of_appearance
+from molviz.picture.furniture import Box, Furnished, Furniture, Label, Ramp, Swatches, furnish
 from molviz.picture.hatching import LEVELS, hatched, level_distance, tone_levels
-from molviz.picture.ink import in_colors, line_widths, outlined, strokes_of
-from molviz.picture.legend import WIDTH as LEGEND_WIDTH
-from molviz.picture.legend import legend
+from molviz.picture.ink import OUTSIDE, in_colors, line_widths, outlined, strokes_of
 from molviz.picture.looks import (
     NEARER_BY,
     Looks,
@@ -29,8 +28,7 @@ from molviz.picture.looks import (
 )
 from molviz.picture.marks import marks, region_mark
 from molviz.picture.oklab import lightness, mix
-from molviz.picture.page import Page, Placement, place
-from molviz.picture.palette import Palette
+from molviz.picture.options import DrawOptions, Subject
 from molviz.picture.picture import (
     SPREAD,
     Color,
@@ -43,7 +41,6 @@ from molviz.picture.picture import (
 )
 from molviz.picture.regions import Regions, closed_chains, merged_regions, shape_of, shapes_of, stacked
 from molviz.picture.shading import ball_gradients, contact_steps, light_bands
-from molviz.picture.style import Style
 from molviz.picture.tints import entity_tints
 from molviz.visibility.eye import projection_of
 from molviz.visibility.horizon_runs import HorizonRuns, horizon_runs
@@ -54,71 +51,41 @@ from molviz.visibility.painter import Pieces
 from molviz.visibility.projection import images_of
 from molviz.visibility.view import View
 
+NO_DISCS = np.empty((0, 3))
 INK_CLASSES = 3  # of distance, in which ink takes on the haze
 INK_FOG = 0.25  # of the fog's strength that the ink of the farthest class takes on
-
-
-@dataclass(frozen=True)
-class DrawOptions:
-    """How the user wants a picture; widths in points, None for the style's."""
-
-    style: Style
-    palette: Palette
-    color_by: str = "element"
-    fill: str | None = None
-    parts: str | None = None
-    outline: float | None = None
-    crease: float | None = None
-    background: Color | None = None
-    page: Page = Page()
-    legend: bool = False
-
-    @property
-    def is_mask(self) -> bool:
-        """Whether colours are names of atoms, which nothing may change."""
-        return self.color_by == "index"
-
-
-@dataclass(frozen=True)
-class Subject:
-    """The molecule of a drawing, and how its atoms and its size relate to the geometry."""
-
-    molecule: Molecule
-    atom: Ints  # (s,) the atom of each sphere
-    low: Floats  # (2,) ångström, of the bounding box of all images
-    high: Floats  # (2,)
-    values: Floats  # (n,) per atom, what a continuous scheme colours by
-    overrides: tuple[tuple[Bools, Color], ...] = ()  # atoms (n,) that have a colour of their own, the last one wins
-
-    @cached_property
-    def entities(self) -> Entities:
-        """What each atom belongs to."""
-        return entities_of(self.molecule)
-
-    @property
-    def seen_molecule(self) -> Molecule:
-        """The atoms of the spheres, in their order."""
-        return self.molecule.take(self.atom)
-
-    def colors(self, options: DrawOptions, tint: Ints) -> AtomColors:
-        """Return the colours of all atoms."""
-        about = ColorSubject(self.molecule, self.entities, self.values)
-        colors = atom_colors(options.color_by, about, options.style, options.palette, tint)
-        for atoms, color in self.overrides:
-            colors = colors.painted(atoms, color, options.palette)
-        return colors
 
 
 class MapComposer:
     """Makes the layers of the drawing of one visibility map."""
 
     def __init__(self, view_map: VisibilityMap, view: View, subject: Subject, options: DrawOptions) -> None:
-        self.map, self.view, self.subject, self.options, self.style = view_map, view, subject, options, options.style
-        self.placement, self.widths = placement_of(subject, options)
-        self.scale = self.placement.scale
-        self.arcs: PlaneArcs = view_map.arcs.moved(self.placement.scale, self.placement.shift)
-        self.sliver = slivers(view_map)
+        self.map, self.view, self.subject, self.options = view_map, view, subject, options
+        self.style = options.chosen_style()
         self.fill = options.fill or self.style.fill
+        self.sliver = slivers(view_map)
+        self.furnished = furnished(subject, options, self.legend() if options.legend else None, *self.labels())
+        self.placement = self.furnished.placement
+        self.scale, self.widths = self.placement.scale, widths_of(options, self.placement.scale)
+        self.arcs: PlaneArcs = view_map.arcs.moved(self.placement.scale, self.placement.shift)
+
+    def legend(self) -> Ramp | Swatches:
+        """Return what explains the colours."""
+        return legend_of(self.subject, self.options, self.subject.colors(self.options, self.no_tints).fill)
+
+    def labels(self) -> tuple[list[Label], Floats]:
+        """Return the labels, and the discs x, y, r that they stay off."""
+        if not self.subject.labelled:
+            return [], np.empty((0, 3))
+        projection = projection_of(self.view)
+        page, near = projection.page_points(self.map.spheres.center), nearness(self.map, self.view)
+        images = images_of(self.map.horizons().take(self.seen), projection)
+        return labels_of(self.subject, self.seen, page, near), np.column_stack([images.c, images.major()])
+
+    @property
+    def no_tints(self) -> Ints:
+        """The tints of chains that do not touch."""
+        return np.zeros(len(self.subject.entities.chain), dtype=np.int64)
 
     def layers(self) -> list[Layer]:
         """Return all layers in painting order: regions, shade, light, lines."""
@@ -145,7 +112,7 @@ class MapComposer:
     @cached_property
     def looks(self) -> Looks:
         """The colours of each sphere."""
-        tint = self.tints() if self.options.color_by == "entity" else np.empty(0, dtype=np.int64)
+        tint = self.tints() if self.options.color_by == "entity" else self.no_tints
         colors = self.subject.colors(self.options, tint).take(self.subject.atom)
         group = groups(self.subject.molecule, self.subject.entities)[self.subject.atom]
         if self.options.is_mask:
@@ -170,7 +137,7 @@ class MapComposer:
             return self.atoms()
         regions, first = self.merged
         colors = colors_of(self.looks.fill[first])
-        names = tone_names(self.options.color_by, self.subject.seen_molecule)
+        names = tone_names(str(self.options.color_by), self.subject.seen_molecule)
         chain = self.subject.seen_molecule.chain
         named = [region_mark(str(chain[k]), str(names[k])) for k in first.tolist()]
         return FillLayer("regions", regions.paths, colors, named, SPREAD)
@@ -308,7 +275,7 @@ class MapComposer:
 def picture_of_map(view_map: VisibilityMap, view: View, subject: Subject, options: DrawOptions) -> Picture:
     """Return the drawing of a visibility map: regions that do not overlap, and on top every visible edge once."""
     composer = MapComposer(view_map, view, subject, options)
-    return _picture(subject, options, composer.placement, composer.widths, composer.layers())
+    return _picture(subject, options, composer.furnished, composer.layers())
 
 
 def colors_of(rows: Ints) -> list[Color]:
@@ -330,14 +297,17 @@ def _file_order(molecule: Molecule) -> Ints:
 
 def picture_of_pieces(pieces: Pieces, subject: Subject, options: DrawOptions) -> Picture:
     """Return the drawing of painter's pieces, back to front, each with the strokes of its own edges; fills are flat."""
-    placement, widths = placement_of(subject, options)
+    fill = subject.colors(options, np.zeros(len(subject.entities.chain), dtype=np.int64)).fill
+    around = furnished(subject, options, legend_of(subject, options, fill) if options.legend else None)
+    placement, widths = around.placement, widths_of(options, around.placement.scale)
     arcs, is_crease = pieces.arcs.moved(placement.scale, placement.shift), pieces.is_crease()
     rank = np.full(len(subject.atom), -1)
     rank[pieces.order] = np.arange(len(pieces.order))
     order = np.argsort(rank[pieces.loops.face], kind="stable")
     chains = closed_chains(pieces.loops, order)
     shape = rank[pieces.loops.face[order]]
-    fills = _fills_of_pieces(shapes_of(arcs, pieces.curve_arcs.curve, chains, shape), pieces.order, subject, options)
+    paths = shapes_of(arcs, pieces.curve_arcs.curve, chains, shape)
+    fills = _fills_of_pieces(paths, fill[subject.atom[pieces.order]], pieces.order, subject, options)
     edge_shape = np.repeat(shape, np.diff(chains.start))
     edge = chains.half_edge >> 1
     strokes = [
@@ -345,17 +315,15 @@ def picture_of_pieces(pieces: Pieces, subject: Subject, options: DrawOptions) ->
         for name, wanted, width in (("crease", is_crease, widths[1]), ("outline", ~is_crease, widths[0]))
         if width > 0
     ]
-    return _picture(subject, options, placement, widths, [StackedLayer("atoms", fills, strokes)])
+    return _picture(subject, options, around, [StackedLayer("atoms", fills, strokes)])
 
 
-def _fills_of_pieces(paths: Paths, sphere: Ints, subject: Subject, options: DrawOptions) -> FillLayer:
-    atoms = subject.atom[sphere]
-    tint = np.zeros(len(subject.entities.chain), dtype=np.int64)
-    colors = colors_of(subject.colors(options, tint).fill[atoms])
-    if (options.fill or options.style.fill) == "none":
+def _fills_of_pieces(paths: Paths, fill: Ints, sphere: Ints, subject: Subject, options: DrawOptions) -> FillLayer:
+    colors = colors_of(fill)
+    if (options.fill or options.chosen_style().fill) == "none":
         colors = [options.background or (255, 255, 255)] * len(colors)
     spread = 0.0 if options.is_mask else SPREAD
-    return FillLayer("fills", paths, colors, marks(subject.molecule.take(atoms), False), spread)
+    return FillLayer("fills", paths, colors, marks(subject.molecule.take(subject.atom[sphere]), False), spread)
 
 
 def _strokes_of_pieces(
@@ -371,41 +339,51 @@ def _strokes_of_pieces(
     ordered = closed_chains(Loops(chains.half_edge, chains.start, of_chain), order)
     ordered = ordered._replace(closed=chains.closed[order])
     rows, start = merged(arcs, on_curves.curve, ordered)
-    return StrokeLayer(name, Paths(rows, start, offsets(of_chain, count)), width, options.style.lines.color)
+    return StrokeLayer(name, Paths(rows, start, offsets(of_chain, count)), width, options.chosen_style().lines.color)
 
 
-def placement_of(subject: Subject, options: DrawOptions) -> tuple[Placement, tuple[float, float]]:
-    """Return where the drawing lies, and the widths of outlines and creases in points, 0 for none."""
-    lines = options.style.lines
-    widest = max(options.style.ink.silhouette.points, lines.outline.width)
-    widest = max(widest if options.outline is None else options.outline, options.crease or 0.0)
-    placement = place(options.page, subject.low, subject.high, widest / 2, LEGEND_WIDTH if options.legend else 0.0)
-    outline = lines.outline.at(placement.scale)
-    if options.outline is not None and not options.style.ink.silhouette.points:
+def furnished(
+    subject: Subject,
+    options: DrawOptions,
+    legend: Ramp | Swatches | None = None,
+    labels: Sequence[Label] = (),
+    discs: Floats = NO_DISCS,
+) -> Furnished:
+    """Return where the drawing and all that stands beside it lie."""
+    style = options.chosen_style()
+    line = max(style.ink.silhouette.points, style.lines.outline.width)
+    line = max(line if options.outline is None else options.outline, options.crease or 0.0)
+    halo = options.background or (255, 255, 255)
+    furniture = Furniture(options.title, options.scale_bar, legend, labels, discs, style.lines.color, halo)
+    return furnish(options.page, subject.low, subject.high, line / 2, furniture)
+
+
+def widths_of(options: DrawOptions, scale: float) -> tuple[float, float]:
+    """Return the widths of even outlines and creases in points, 0 for none."""
+    style = options.chosen_style()
+    outline, crease = style.lines.outline.at(scale), style.lines.crease.at(scale)
+    if options.outline is not None and not style.ink.silhouette.points:
         outline = options.outline
-    crease = lines.crease.at(placement.scale) if options.crease is None else options.crease
-    return placement, (outline, crease)
+    return outline, crease if options.crease is None else options.crease
 
 
-def _picture(
-    subject: Subject, options: DrawOptions, placement: Placement, widths: tuple[float, float], layers: list[Layer]
-) -> Picture:
-    ink = options.style.ink.scaled_to(options.outline, placement.scale).silhouette.at(placement.scale)
-    half = max(*widths, 2 * 0.6 * ink * placement.scale, 0.0 if options.is_mask else SPREAD) / 2
+def _picture(subject: Subject, options: DrawOptions, around: Furnished, layers: list[Layer]) -> Picture:
+    placement = around.placement
+    widest = max(*widths_of(options, placement.scale), 2 * OUTSIDE * _ink_width(options, placement.scale))
+    half = max(widest, 0.0 if options.is_mask else SPREAD) / 2
     low, high = (placement.scale * corner + placement.shift for corner in (subject.low, subject.high))
-    right = float(high[0] + half)
-    if options.legend:
-        x, middle = right + 16.0, float(low[1] + high[1]) / 2
-        reach = min(float(high[1] - low[1]) / 2 - 12.0, 90.0)
-        title = CONTINUOUS[options.color_by]
-        layers += legend(subject.values, title, options.style, x, middle - reach, middle + reach)
-        right = placement.width - 1.0
-    box = (float(low[0] - half), float(low[1] - half), right, float(high[1] + half))
+    box = Box(float(low[0] - half), float(low[1] - half), float(high[0] + half), float(high[1] + half))
     return Picture(
         width=placement.width,
         height=placement.height,
-        box=box,
-        layers=layers,
-        title=subject.molecule.name,
+        box=box if around.box is None else box.around(around.box),
+        layers=[*layers, *around.layers],
+        title=options.title or subject.molecule.name,
         background=options.background,
+        description=subject.description,
     )
+
+
+def _ink_width(options: DrawOptions, scale: float) -> float:
+    """The widest line of ink in points."""
+    return options.chosen_style().ink.scaled_to(options.outline, scale).silhouette.at(scale) * scale

@@ -26,10 +26,16 @@ def draw(
     *,
     method: str = "visible",
     check: bool = False,
-    style: str | os.PathLike[str] = "default",
-    color_by: str = "element",
+    style: str | os.PathLike[str] = "auto",
+    color_by: str = "auto",
+    color: str | Sequence[str | tuple[str, Any]] = (),
+    palette: str | os.PathLike[str] = "tide",
+    parts: str | None = None,
+    label: str | Sequence[str] = (),
+    scale_bar: float | str | bool | None = None,
+    title: str | None = None,
     legend: bool = False,
-    fill: str = "flat",
+    fill: str | None = None,
     outline: float | None = None,
     crease: float | None = None,
     background: str | Sequence[int] | None = "none",
@@ -43,6 +49,7 @@ def draw(
     model: int | str = 1,
     assembly: str | None = None,
     select: str | None = None,
+    water: bool = False,
     no_water: bool = False,
     no_hydrogens: bool = False,
     chain: str | Sequence[str] | None = None,
@@ -58,24 +65,27 @@ def draw(
     The options are those of ``molviz draw`` on the command line:
 
     * what is seen: ``method`` "visible" (the exact map) or "painter" (pieces that cover each other), ``check``;
-    * the look: ``style`` (name or TOML file), ``color_by`` "element", "chain", "residue", "index", "bfactor" or
-      "exposure", ``legend``, ``fill`` "flat" or "none", ``outline`` and ``crease`` (widths in points, 0 for none),
-      ``background`` ("white", "#ffe", (255, 255, 238) or "none");
+    * the look: ``style`` (a name of ``molviz styles`` or a TOML file), ``color_by`` "auto", "element", "chain",
+      "entity", "residue", "index", "bfactor" or "exposure", ``color`` ("resn HEM=crimson", several), ``palette``,
+      ``parts`` "atoms" or "merged", ``fill`` "flat" or "none", ``outline`` and ``crease`` (widths in points, 0 for
+      none), ``background`` ("white", "#ffe", (255, 255, 238) or "none");
+    * beside it: ``label`` ("resn HEM", "chain A and name CA={resn} {resi}", several), ``scale_bar`` (ångström, or
+      True), ``title``, ``legend``;
     * the view: ``orient`` "principal" or "file", ``rotate`` ("x,30", or [("x", 30), ("y", 10)] in degrees),
       ``perspective`` (the eye's distance in ångström);
     * the page: ``width`` ("8cm", or points), ``scale`` (points per ångström), ``margin``, ``page`` "fit", "a4" or
       "letter";
-    * the part that is drawn: ``model`` (from 1), ``assembly``, ``select`` ("chain A and not water"), ``no_water``,
-      ``no_hydrogens``, ``chain`` ("A,B" or ["A", "B"]);
+    * the part that is drawn: ``model`` (from 1), ``assembly``, ``select`` ("chain A and not water"), ``water`` (left
+      out unless True, if there is anything else), ``no_water``, ``no_hydrogens``, ``chain`` ("A,B" or ["A", "B"]);
     * its radii: ``radii`` (table or file), ``scale_radii``, ``probe`` (ångström).
 
     Raises InputError, a ValueError, naming what is wrong, and warns of what is odd.
     """
     options = dict(locals())
-    from molviz.pipeline.draw import draw_options_from, drawing_of
+    from molviz.pipeline.draw import draw_request_from, drawing_of
     from molviz.pipeline.values import chosen, view_options_from
 
-    look, view_options = draw_options_from(options), view_options_from(options)
+    look, view_options = draw_request_from(options), view_options_from(options)
     loaded = load_one(x, options)
     tell(loaded.warnings, stacklevel=3)
     return drawing_of(loaded, look, view_options, chosen(options, "method"), check)

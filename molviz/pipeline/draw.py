@@ -2,7 +2,7 @@
 
 import json
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import PurePath
 
@@ -11,12 +11,28 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.errors import InputError
 from molviz.geometry.measure import measure_spheres
-from molviz.picture.compose import DrawOptions, Subject, picture_of_map, picture_of_pieces
-from molviz.picture.picture import Picture
+from molviz.model.entities import entities_of
+from molviz.model.molecule import Molecule
+from molviz.model.selection import select
+from molviz.picture.compose import picture_of_map, picture_of_pieces
+from molviz.picture.options import DrawOptions, Labelled, Painted, Subject
+from molviz.picture.palette import load_palette
+from molviz.picture.picture import Color, Picture
 from molviz.picture.style import load_style
 from molviz.pipeline.inputs import Loaded
 from molviz.pipeline.outputs import encoded, save
-from molviz.pipeline.values import Options, chosen, given, legend_from, page_from, parse_background, parse_not_negative
+from molviz.pipeline.values import (
+    Options,
+    chosen,
+    given,
+    page_from,
+    parse_all_painted,
+    parse_background,
+    parse_labels,
+    parse_not_negative,
+    parse_scale_bar,
+    parse_text,
+)
 from molviz.pipeline.views import ViewOptions, view_of
 from molviz.visibility.checks import check_map
 from molviz.visibility.lines import slivers
@@ -27,9 +43,20 @@ from molviz.visibility.scene import Scene, extent
 from molviz.visibility.view import View
 from molviz.write import WRITERS
 
+AUTO = "auto"
 JSON = ".json"
 NOT_PAINTED = (JSON, ".hpgl")  # the map is another thing, and a pen cannot cover what it drew
 WATER_RADIUS = 1.4  # ångström, Lee & Richards 1971
+
+
+@dataclass(frozen=True)
+class DrawRequest:
+    """A picture as it was asked for, before the molecule is known: selections are words still."""
+
+    options: DrawOptions
+    colors: tuple[tuple[str, Color], ...] = ()  # selection, colour
+    labels: tuple[str, ...] = ()  # SELECTION[=TEXT]
+    description: str = ""
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -45,7 +72,8 @@ class Drawing:
     visible: int
     arcs: int
     _loaded: Loaded
-    _options: DrawOptions
+    _request: DrawRequest
+    _options: DrawOptions  # settled
     _view: View
     _seen: VisibilityMap | Pieces
     _atom: Ints  # row of the molecule of each of the spheres in it
@@ -74,7 +102,9 @@ class Drawing:
             raise InputError(f"format: {format!r}; expected one of {' '.join(suffixes())}")
         if isinstance(self._seen, Pieces) and suffix in NOT_PAINTED:
             raise InputError(f"painting over gives no {suffix}; expected method visible", self._loaded.source)
-        return self._map_as_json() if suffix == JSON else encoded(self._picture, suffix, plotter, paper)
+        if suffix == JSON:
+            return self._map_as_json()
+        return encoded(self._pen_picture if suffix == ".hpgl" else self._picture, suffix, plotter, paper)
 
     def save(self, path: str | os.PathLike[str], plotter: str = "", paper: str = "") -> None:
         """Write the drawing in the format that the suffix of the path names; the file appears whole or not at all.
@@ -88,12 +118,29 @@ class Drawing:
 
     @cached_property
     def _picture(self) -> Picture:
+        return self._composed(self._options)
+
+    @cached_property
+    def _pen_picture(self) -> Picture:
+        """What a pen can draw: even lines where the style has filled ones."""
+        style = self._options.chosen_style()
+        if style.lines.outline.width or style.hatch.nearest:
+            return self._picture
+        return self._composed(replace(self._options, style=load_style("line")))
+
+    def _composed(self, options: DrawOptions) -> Picture:
         molecule = self._loaded.molecule
         low, high = extent(self._loaded.spheres, self._view)
-        subject = Subject(molecule, self._atom, low, high, color_values(self._loaded, self._options.color_by))
+        values = color_values(self._loaded, str(options.color_by))
+        painted = tuple(
+            Painted(select(molecule, selection), color, selection) for selection, color in self._request.colors
+        )
+        labelled = tuple(labelled_of(molecule, label) for label in self._request.labels)
+        about = self._request.description
+        subject = Subject(molecule, self._atom, low, high, values, painted, labelled, about)
         if isinstance(self._seen, Pieces):
-            return picture_of_pieces(self._seen, subject, self._options)
-        return picture_of_map(self._seen, subject, self._options)
+            return picture_of_pieces(self._seen, subject, options)
+        return picture_of_map(self._seen, self._view, subject, options)
 
     def _map_as_json(self) -> bytes:
         assert isinstance(self._seen, VisibilityMap)  # painter's pieces were refused
@@ -101,22 +148,40 @@ class Drawing:
         return json.dumps(data, separators=(",", ":")).encode() + b"\n"
 
 
-def draw_options_from(options: Options) -> DrawOptions:
-    """Return the look of a picture; raises InputError for a style that is none as well."""
-    return DrawOptions(
-        style=load_style(str(options["style"])),
-        color_by=chosen(options, "color_by"),
-        fill=chosen(options, "fill"),
+def draw_request_from(options: Options, description: str = "") -> DrawRequest:
+    """Return the look of a picture; raises InputError for a style or palette that is none as well."""
+    style, scheme = str(options["style"]), chosen(options, "color_by")
+    look = DrawOptions(
+        palette=load_palette(str(options["palette"])),
+        style=None if style == AUTO else load_style(style),
+        color_by=None if scheme == AUTO else scheme,
+        fill=chosen(options, "fill") if options["fill"] is not None else None,
+        parts=chosen(options, "parts") if options["parts"] is not None else None,
         outline=given(options, "outline", parse_not_negative),
         crease=given(options, "crease", parse_not_negative),
         background=given(options, "background", parse_background),
         page=page_from(options),
-        legend=legend_from(options),
+        legend=bool(options["legend"]),
+        title=given(options, "title", parse_text) or "",
+        scale_bar=given(options, "scale_bar", parse_scale_bar),
     )
+    colors = given(options, "color", parse_all_painted) or ()
+    return DrawRequest(look, colors, given(options, "label", parse_labels) or (), description)
+
+
+def labelled_of(molecule: Molecule, text: str) -> Labelled:
+    """Return the atoms that ``SELECTION[=TEXT]`` means, split at the first = that leaves a valid selection."""
+    for place in [*(k for k, letter in enumerate(text) if letter == "="), len(text)]:
+        try:
+            return Labelled(select(molecule, text[:place]), text[place + 1 :])
+        except InputError:
+            if place == len(text):
+                raise
+    raise AssertionError
 
 
 def drawing_of(
-    loaded: Loaded, options: DrawOptions, view_options: ViewOptions, method: str = "visible", check: bool = False
+    loaded: Loaded, request: DrawRequest, view_options: ViewOptions, method: str = "visible", check: bool = False
 ) -> Drawing:
     """Return one model drawn; ``method`` is ``visible`` or ``painter``.
 
@@ -125,15 +190,16 @@ def drawing_of(
     """
     view = view_of(loaded.spheres, view_options)
     drawn = len(loaded.molecule)
+    options = request.options.settled(entities_of(loaded.molecule), method == "painter")
     if method == "painter":
         pieces, atom = Scene(loaded.spheres, only=view).pieces(view)
         visible, arcs = len(pieces.order), len(pieces.curve_arcs.curve)
-        return Drawing(loaded.read, drawn, visible, arcs, loaded, options, view, pieces, atom)
+        return Drawing(loaded.read, drawn, visible, arcs, loaded, request, options, view, pieces, atom)
     seen, atom = Scene(loaded.spheres, only=view).map(view)
     if check:
         check_map(seen, view)
     visible = int(np.sum(np.unique(seen.loops.face[~slivers(seen)]) != BACKGROUND))
-    return Drawing(loaded.read, drawn, visible, len(seen.left), loaded, options, view, seen, atom)
+    return Drawing(loaded.read, drawn, visible, len(seen.left), loaded, request, options, view, seen, atom)
 
 
 def color_values(loaded: Loaded, scheme: str) -> Floats:

@@ -26,7 +26,7 @@ class InputOptions:
     model: str = "1"  # number from 1, or "all"
     assembly: str | None = None
     select: str | None = None
-    water: bool = True
+    water: bool | None = True  # None: left out where there is anything else
     hydrogens: bool = True
     chains: tuple[str, ...] = ()
     radii: str = DEFAULT
@@ -86,7 +86,7 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
     molecule = _named(_kept(whole, wanted, reading.source), reading.source)
     bare, warnings = spheres_of(molecule, wanted.radii)
     spheres = bare.enlarged(wanted.scale_radii, wanted.probe)
-    warnings += _far_apart(spheres)
+    warnings += _far_apart(spheres) + _without_water(whole, molecule, wanted)
     told = tuple(f"{reading.source}: {warning}" for warning in warnings)
     count = len(reading.models)
     return Loaded(
@@ -98,8 +98,9 @@ def _kept(molecule: Molecule, wanted: InputOptions, source: str) -> Molecule:
     keep: Bools = np.ones(len(molecule), dtype=bool)
     if wanted.select is not None:
         keep &= select(molecule, wanted.select)
-    if not wanted.water:
-        keep &= ~is_water(molecule)
+    water = is_water(molecule)
+    if wanted.water is False or (wanted.water is None and np.any(keep & ~water)):
+        keep &= ~water
     if not wanted.hydrogens:
         keep &= ~is_hydrogen(molecule)
     if wanted.chains:
@@ -108,6 +109,13 @@ def _kept(molecule: Molecule, wanted: InputOptions, source: str) -> Molecule:
         chains = ", ".join(dict.fromkeys(molecule.chain.tolist()))
         raise InputError(f"no atoms are left by the selection; the chains are {chains or 'not named'}", source)
     return molecule if keep.all() else molecule.take(np.flatnonzero(keep))
+
+
+def _without_water(whole: Molecule, molecule: Molecule, wanted: InputOptions) -> tuple[str, ...]:
+    left_out = int(np.sum(is_water(whole))) if wanted.water is None else 0
+    if not left_out or np.any(is_water(molecule)):
+        return ()
+    return (f"{left_out} atoms of water are left out; expected --water to draw them",)
 
 
 def _far_apart(spheres: Spheres) -> tuple[str, ...]:

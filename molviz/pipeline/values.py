@@ -8,10 +8,11 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from molviz.errors import InputError
-from molviz.picture.coloring import CONTINUOUS, SCHEMES
+from molviz.picture.coloring import CONTINUOUS, DISCRETE
+from molviz.picture.colors import parse_color
+from molviz.picture.furniture import ROUND
 from molviz.picture.page import PAPER, Page, parse_length
 from molviz.picture.picture import Color
-from molviz.picture.style import parse_color
 from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.views import ViewOptions
 
@@ -24,7 +25,8 @@ CHOICES = {
     "fill": ("flat", "none"),
     "orient": ("principal", "file"),
     "page": ("fit", *PAPER),
-    "color_by": (*SCHEMES, *CONTINUOUS),
+    "color_by": ("auto", *DISCRETE, *CONTINUOUS),
+    "parts": ("atoms", "merged"),
 }
 
 
@@ -99,6 +101,41 @@ def parse_background(value: Any) -> Color | None:
     return channels
 
 
+def parse_painted(value: Any) -> tuple[str, Color]:
+    """Return selection and colour of ``"resn HEM=crimson"`` (split at the last =) or ``("resn HEM", colour)``."""
+    selection, sign, color = value.rpartition("=") if isinstance(value, str) else (*_couple(value)[:1], "=", value[1])
+    if not sign or not str(selection).strip():
+        raise ValueError(f"{value!r} is no colour of a selection; expected for example 'resn HEM=crimson'")
+    parsed = parse_background(color)
+    if parsed is None:
+        raise ValueError(f"{color!r} is not a colour; expected #rgb, #rrggbb or a CSS name")
+    return selection, parsed
+
+
+def _couple(value: Any) -> tuple[Any, Any]:
+    if not isinstance(value, tuple | list) or len(value) != 2:
+        raise ValueError(f"{value!r} is no colour of a selection; expected ('resn HEM', 'crimson')")
+    return value[0], value[1]
+
+
+def parse_all_painted(value: Any) -> tuple[tuple[str, Color], ...]:
+    """Return one pair of selection and colour or several, in the order in which they are painted."""
+    one = isinstance(value, str) or (len(value) == 2 and isinstance(value[0], str) and "=" not in value[0])
+    return tuple(map(parse_painted, [value] if one else value))
+
+
+def parse_labels(value: Any) -> tuple[str, ...]:
+    """Return one label ``SELECTION[=TEXT]`` or several."""
+    return tuple(map(parse_text, [value] if isinstance(value, str) else value))
+
+
+def parse_scale_bar(value: Any) -> float | None:
+    """Return a length in ångström; a round one that suits the drawing for True or "auto", None for False."""
+    if value is False or value is None:
+        return None
+    return ROUND if value is True or value in ("auto", ROUND) else parse_positive(value)
+
+
 def parse_chains(value: Any) -> tuple[str, ...]:
     """Return the names of ``"A,B"`` or ``["A", "B"]``; none for None."""
     if not value:
@@ -122,7 +159,7 @@ def input_options_from(options: Options) -> InputOptions:
         model=str(options["model"]),
         assembly=given(options, "assembly", parse_text),
         select=given(options, "select", parse_text),
-        water=not options["no_water"],
+        water=_water_from(options),
         hydrogens=not options["no_hydrogens"],
         chains=given(options, "chain", parse_chains) or (),
         radii=str(options["radii"]),
@@ -132,11 +169,11 @@ def input_options_from(options: Options) -> InputOptions:
     )
 
 
-def legend_from(options: Options) -> bool:
-    """Return whether a legend is wanted; raises InputError where it has nothing to explain."""
-    if options["legend"] and options["color_by"] not in CONTINUOUS:
-        raise InputError(f"legend: explains numbers; expected color by {' or '.join(CONTINUOUS)}")
-    return bool(options["legend"])
+def _water_from(options: Options) -> bool | None:
+    """Pictures leave water out unless told otherwise; of masks, and of numbers, nothing is left out unasked."""
+    if options["no_water"]:
+        return False
+    return True if options.get("water", True) or options.get("color_by") == "index" else None
 
 
 def page_from(options: Options) -> Page:

@@ -1,0 +1,114 @@
+"""What is written beside a drawing: the legend of its colours, and labels of atoms."""
+
+import numpy as np
+
+from molviz.arrays import Bools, Floats, Ints
+from molviz.model.entities import ION, LIGAND, WATER
+from molviz.model.molecule import Molecule
+from molviz.picture.coloring import CONTINUOUS, order_of_appearance
+from molviz.picture.furniture import Label, Ramp, Swatches
+from molviz.picture.options import DrawOptions, Labelled, Subject
+from molviz.picture.picture import Color
+
+PLACEHOLDERS = {  # and the columns of a molecule that they stand for
+    "{resn}": "residue_name", "{resi}": "residue", "{chain}": "chain", "{name}": "atom_name", "{element}": "element",
+}  # fmt: skip
+OF_ATOMS = ("{name}", "{element}")  # placeholders that differ from atom to atom
+
+
+def legend_of(subject: Subject, options: DrawOptions, fill: Ints) -> Ramp | Swatches:
+    """Return what explains the colours: ``fill`` (n, 3) are those of the atoms, before fog."""
+    scheme = str(options.color_by)
+    if scheme in CONTINUOUS:
+        known = subject.values[np.isfinite(subject.values)]
+        least, greatest = (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
+        return Ramp(CONTINUOUS[scheme], least, greatest, options.chosen_style().colors.ramp)
+    painted = np.zeros(len(subject.molecule), dtype=bool)
+    for one in subject.painted:
+        painted |= one.atoms
+    names = _names(subject, scheme)
+    entries = [(name, _color(fill[row])) for name, row in _first_rows(names, ~painted & (names != ""))]
+    return Swatches([*entries, *((one.name, one.color) for one in subject.painted)], _TITLES.get(scheme, ""))
+
+
+_TITLES = {"chain": "chains", "residue": "residues"}
+
+
+def _names(subject: Subject, scheme: str) -> "np.ndarray[tuple[int], np.dtype[np.str_]]":
+    """What the legend calls each atom (n,), "" for what it leaves out."""
+    molecule, entities = subject.molecule, subject.entities
+    if scheme == "chain":
+        return np.where(molecule.chain == "", "-", molecule.chain)
+    if scheme == "residue":
+        return molecule.residue_name
+    if scheme != "entity":
+        return molecule.element
+    chains = [
+        ", ".join(entities.chain[entities.chain_entity == number].tolist())
+        for number in range(int(entities.chain_entity.max(initial=-1)) + 1)
+    ]
+    of_polymer = np.array([f"chain {name}" if "," not in name else f"chains {name}" for name in chains] or [""])
+    kinds = np.select(
+        [entities.kind == LIGAND, entities.kind == ION, entities.kind == WATER],
+        [molecule.residue_name, molecule.element, "water"], "",
+    )  # fmt: skip
+    return np.where(entities.entity >= 0, of_polymer[entities.entity], kinds)
+
+
+def _first_rows(names: "np.ndarray[tuple[int], np.dtype[np.str_]]", wanted: Bools) -> list[tuple[str, int]]:
+    """Each name once, in order of appearance, with its first row."""
+    rows = np.flatnonzero(wanted)
+    order = order_of_appearance(names[rows])
+    first = dict(zip(reversed(names[rows].tolist()), reversed(rows.tolist()), strict=True))
+    return [(name, first[name]) for name in order]
+
+
+def _color(row: Ints) -> Color:
+    red, green, blue = row.tolist()
+    return red, green, blue
+
+
+def labels_of(subject: Subject, seen: Ints, page: Floats, near: Floats) -> list[Label]:
+    """Return the labels; ``seen`` are spheres, ``page`` (s, 2) and ``near`` (s,) places and nearness of all spheres.
+
+    A text that names atoms stands at each atom, one that names residues at each residue, any other once; at the
+    nearest of its atoms that are seen, and nowhere if none is.
+    """
+    return [label for wanted in subject.labelled for label in _labels(subject, wanted, seen, page, near)]
+
+
+def _labels(subject: Subject, wanted: Labelled, seen: Ints, page: Floats, near: Floats) -> list[Label]:
+    spheres = seen[wanted.atoms[subject.atom[seen]]]
+    if not len(spheres):
+        return []
+    molecule = subject.molecule.take(subject.atom[spheres])
+    template = wanted.template or _usual_template(molecule)
+    order = np.lexsort((-near[spheres], _units(molecule, template)))
+    unit = _units(molecule, template)[order]
+    first = order[np.append(True, unit[1:] != unit[:-1])]
+    return [
+        Label(float(page[spheres[k], 0]), float(page[spheres[k], 1]), _filled(template, molecule, k))
+        for k in np.sort(first).tolist()
+    ]
+
+
+def _usual_template(molecule: Molecule) -> str:
+    return "{resn} {resi}" if np.any(molecule.residue_name != "") else "{name}"
+
+
+def _units(molecule: Molecule, template: str) -> Ints:
+    """Equal numbers (k,) for atoms that have one label together."""
+    if any(word in template for word in OF_ATOMS):
+        return np.arange(len(molecule))
+    if "{resn}" not in template and "{resi}" not in template and "{chain}" not in template:
+        return np.zeros(len(molecule), dtype=np.int64)
+    keys = molecule.chain
+    if "{resn}" in template or "{resi}" in template:
+        keys = np.char.add(np.char.add(keys, "/"), np.char.add(molecule.residue_name, molecule.residue))
+    return np.unique(keys, return_inverse=True)[1].ravel()
+
+
+def _filled(template: str, molecule: Molecule, row: int) -> str:
+    for word, column in PLACEHOLDERS.items():
+        template = template.replace(word, str(getattr(molecule, column)[row]))
+    return template

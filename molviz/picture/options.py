@@ -1,0 +1,117 @@
+"""How the user wants a picture, and whose picture it is."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from molviz.arrays import Bools, Floats, Ints
+from molviz.model.entities import POLYMER, Entities, entities_of
+from molviz.model.molecule import Molecule
+from molviz.picture.coloring import AtomColors, ColorSubject, atom_colors
+from molviz.picture.page import Page
+from molviz.picture.palette import Palette
+from molviz.picture.picture import Color
+from molviz.picture.style import Style, load_style
+
+MOST_CEL = 2000  # atoms: larger things that are no polymers are drawn flat
+
+
+@dataclass(frozen=True)
+class Painted:
+    """Atoms that have a colour of their own, and what the legend calls them."""
+
+    atoms: Bools  # (n,)
+    color: Color
+    name: str
+
+
+@dataclass(frozen=True)
+class Labelled:
+    """Atoms that are labelled; ``template`` may name {resn} {resi} {name} {chain} {element}, "" for what is usual."""
+
+    atoms: Bools  # (n,)
+    template: str
+
+
+@dataclass(frozen=True)
+class DrawOptions:
+    """How the user wants a picture; widths in points, None for what is usual or the style's."""
+
+    palette: Palette
+    style: Style | None = None
+    color_by: str | None = None
+    fill: str | None = None
+    parts: str | None = None
+    outline: float | None = None
+    crease: float | None = None
+    background: Color | None = None
+    page: Page = Page()
+    legend: bool = False
+    title: str = ""
+    scale_bar: float | None = None
+
+    @property
+    def is_mask(self) -> bool:
+        """Whether colours are names of atoms, which nothing may change."""
+        return self.color_by == "index"
+
+    def settled(self, entities: Entities, painted: bool = False) -> "DrawOptions":
+        """Return the options with style and scheme chosen by what is drawn; masks and painted pieces are flat."""
+        has_polymer = bool(np.any(entities.kind == POLYMER))
+        style = self.style or load_style(_usual_style(has_polymer, len(entities.kind)))
+        if self.is_mask or painted:
+            flat = load_style("flat")
+            lines = flat.lines if self.is_mask or not style.lines.outline.width else style.lines
+            style = replace(flat, lines=lines, fill="flat" if self.is_mask else _plain(style.fill), colors=style.colors)
+        scheme = self.color_by or style.colors.scheme
+        if scheme == "entity" and not has_polymer:
+            scheme = "element"
+        return replace(self, style=style, color_by=scheme)
+
+    def chosen_style(self) -> Style:
+        """Return the style, once settled."""
+        assert self.style is not None, "options are settled before a picture is made"
+        return self.style
+
+
+def _plain(fill: str) -> str:
+    return "flat" if fill == "ball" else fill
+
+
+def _usual_style(has_polymer: bool, atoms: int) -> str:
+    if has_polymer:
+        return "goodsell"
+    return "cel" if atoms <= MOST_CEL else "flat"
+
+
+@dataclass(frozen=True)
+class Subject:
+    """The molecule of a drawing, and how its atoms and its size relate to the geometry."""
+
+    molecule: Molecule
+    atom: Ints  # (s,) the atom of each sphere
+    low: Floats  # (2,) ångström, of the bounding box of all images
+    high: Floats  # (2,)
+    values: Floats  # (n,) per atom, what a continuous scheme colours by
+    painted: tuple[Painted, ...] = ()
+    labelled: tuple[Labelled, ...] = ()
+    description: str = ""
+
+    @cached_property
+    def entities(self) -> Entities:
+        """What each atom belongs to."""
+        return entities_of(self.molecule)
+
+    @property
+    def seen_molecule(self) -> Molecule:
+        """The atoms of the spheres, in their order."""
+        return self.molecule.take(self.atom)
+
+    def colors(self, options: DrawOptions, tint: Ints) -> AtomColors:
+        """Return the colours of all atoms; ``options`` are settled."""
+        about = ColorSubject(self.molecule, self.entities, self.values)
+        colors = atom_colors(str(options.color_by), about, options.chosen_style(), options.palette, tint)
+        for one in self.painted:
+            colors = colors.painted(one.atoms, one.color, options.palette)
+        return colors
