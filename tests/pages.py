@@ -6,8 +6,11 @@ from typing import Any
 import numpy as np
 
 from molviz.curves import PlaneArcs
+from molviz.model.entities import entities_of
 from molviz.model.spheres import Spheres
-from molviz.picture.compose import DrawOptions, Subject, picture_of_map, picture_of_pieces
+from molviz.picture.compose import picture_of_map, picture_of_pieces
+from molviz.picture.options import DrawOptions, Subject
+from molviz.picture.palette import load_palette
 from molviz.picture.picture import FillLayer, Picture, StrokeLayer
 from molviz.picture.style import load_style
 from molviz.pipeline.draw import color_values
@@ -45,7 +48,9 @@ def residues(*rows: tuple[str, str, str, str, float, float]) -> Loaded:
 
 def page(loaded: Loaded, method: str = "visible", eye: ViewOptions = FILE_AXES, **look: Any) -> Picture:
     """The picture that a model becomes; ``look`` are the fields of ``DrawOptions``."""
-    options = DrawOptions(load_style(look.pop("style", "default")), **look)
+    look = {"style": load_style(look.pop("style", "flat")), "color_by": "element"} | look
+    options = DrawOptions(load_palette("tide"), **look)
+    options = options.settled(entities_of(loaded.molecule), method == "painter")
     view = view_of(loaded.spheres, eye)
     low, high = extent(loaded.spheres, view)
     values = color_values(loaded, options.color_by)
@@ -57,7 +62,7 @@ def page(loaded: Loaded, method: str = "visible", eye: ViewOptions = FILE_AXES, 
         pieces, row = Scene(loaded.spheres, only=view).pieces(view)
         return picture_of_pieces(pieces, subject(row), options)
     view_map, row = Scene(loaded.spheres, only=view).map(view)
-    return picture_of_map(view_map, subject(row), options)
+    return picture_of_map(view_map, view, subject(row), options)
 
 
 def named(picture: Picture) -> dict[str, Any]:

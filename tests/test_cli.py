@@ -192,7 +192,7 @@ def test_an_eye_among_the_atoms_is_told_in_one_line(tmp_path: Path) -> None:
     assert result.stderr.startswith("molviz: ") and "expected a distance above 2.24" in result.stderr
 
 
-@pytest.mark.parametrize("text", ["[lines]\n", "lines = 3\n", "[colors]\nelement = 3\n", "x = [\n"])
+@pytest.mark.parametrize("text", ["[lines]\ncolor = 3\n", "lines = 3\n", "[colors]\nelement = 3\n", "x = [\n"])
 def test_a_style_that_is_none_is_told_with_its_name(tmp_path: Path, text: str) -> None:
     style = tmp_path / "mine.toml"
     style.write_text(text, encoding="utf-8")

@@ -25,9 +25,9 @@ from molviz.errors import InputError, InternalError
 from molviz.geometry.general_position import Degenerate, first_general
 from molviz.geometry.measure import measure_spheres
 from molviz.model.spheres import Spheres
-from molviz.picture.compose import DrawOptions
-from molviz.picture.style import load_style
-from molviz.pipeline.draw import draw_options_from, suffixes
+from molviz.picture.options import DrawOptions
+from molviz.picture.palette import load_palette
+from molviz.pipeline.draw import DrawRequest, draw_request_from, suffixes
 from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.values import input_options_from, view_options_from
 from molviz.pipeline.views import ViewOptions
@@ -88,9 +88,10 @@ def test_the_same_option_has_the_same_default_everywhere(function: Callable[...,
 
 def test_tables_of_options_have_the_same_defaults() -> None:
     usual = keywords_of(molviz.draw)
-    assert input_options_from(usual) == InputOptions()
+    assert input_options_from(usual) == InputOptions(water=None)
+    assert input_options_from(keywords_of(molviz.measure)) == InputOptions()
     assert view_options_from(usual) == ViewOptions()
-    assert draw_options_from(usual) == DrawOptions(load_style("default"))
+    assert draw_request_from(usual) == DrawRequest(DrawOptions(load_palette("tide")))
 
 
 @pytest.mark.parametrize(
@@ -115,7 +116,10 @@ def test_tables_of_options_have_the_same_defaults() -> None:
         ("--color-by exposure --legend --orient file", {"color_by": "exposure", "legend": True, "orient": "file"}),
     ],
 )  # fmt: skip
-def test_python_and_the_command_line_draw_the_same(words: str, keywords: dict[str, Any], tmp_path: Path) -> None:
+def test_python_and_the_command_line_draw_the_same(
+    words: str, keywords: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("molviz.cli.draw.drawn_by", lambda source: "")  # what Python has no words for
     path = tmp_path / "x.svg"
     more = [keywords["select"]] if words == "--select" else []
     result = run("draw", PROTEIN, "-o", str(path), *words.split(), *more)
@@ -128,7 +132,8 @@ def test_python_and_the_command_line_draw_the_same(words: str, keywords: dict[st
 
 
 @pytest.mark.parametrize("suffix", suffixes())
-def test_a_drawing_has_every_format(suffix: str, tmp_path: Path) -> None:
+def test_a_drawing_has_every_format(suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("molviz.cli.draw.drawn_by", lambda source: "")
     drawing, path = molviz.draw(CAFFEINE), tmp_path / f"x{suffix}"
     assert run("draw", CAFFEINE, "-o", str(path)).exit_code == 0
     assert drawing.to(suffix) == drawing.to(suffix.removeprefix(".").upper()) == path.read_bytes()
@@ -261,7 +266,7 @@ def test_a_probe_that_is_no_length_is_refused_by_name(function: Callable[..., An
      ("perspective", 0), ("perspective", float("nan")), ("chain", 5), ("chain", "Z"), ("select", 5),
      ("select", "mood"), ("color_by", "mood"), ("method", "magic"), ("orient", "up"), ("page", "a5"), ("fill", "full"),
      ("style", "nope"), ("radii", "nope"), ("model", 2), ("model", 0), ("model", "all"), ("assembly", "7"),
-     ("legend", True)],
+     ("color", "crimson")],
 )  # fmt: skip
 def test_a_wrong_value_is_refused_by_name(name: str, value: object) -> None:
     with pytest.raises(InputError, match=f"(?i){name}"):
@@ -370,13 +375,11 @@ def test_exposure_is_that_of_the_tables_radii_whatever_is_drawn() -> None:
 
 
 def exposure_colors(drawing: molviz.Drawing) -> list[Any]:
-    from molviz.picture.coloring import atom_colors
+    from molviz.picture.coloring import on_ramp
     from molviz.pipeline.draw import color_values
 
-    return list(
-        atom_colors("exposure", drawing._loaded.molecule, color_values(drawing._loaded, "exposure"),
-                    drawing._options.style)
-    )  # fmt: skip
+    colors = drawing._options.chosen_style().colors
+    return on_ramp(color_values(drawing._loaded, "exposure"), colors.ramp, colors.unknown)
 
 
 def test_measuring_has_no_probe_unless_asked_for() -> None:

@@ -195,7 +195,7 @@ def test_swatches_stand_in_columns_no_taller_than_the_drawing() -> None:
     columns = np.unique(np.round(corner[:, 0], 6), return_counts=True)[1]
     height = drawing(found).y1 - drawing(found).y0
     assert columns.max() * ROW <= height < (columns.max() + 2) * ROW * len(columns)
-    assert columns.sum() == 70 and columns[:-1].min() == columns.max() and fills.color[5] == (5, 5, 5)
+    assert columns.sum() == 70 and columns[:-1].min() == columns.max() and fills.paint[5] == (5, 5, 5)
 
 
 def test_long_names_are_cut_and_too_many_are_counted() -> None:
@@ -209,7 +209,7 @@ def test_a_ramp_names_least_middle_and_greatest_in_order() -> None:
     fills, texts = found.layers
     assert [text.text for text in texts.texts] == ["2", "4", "6", "B"]
     assert all(a.y < b.y for a, b in pairwise(texts.texts))
-    assert fills.color[0] == (0, 0, 255) and fills.color[-1] == (255, 0, 0)
+    assert fills.paint[0] == (0, 0, 255) and fills.paint[-1] == (255, 0, 0)
     height = fills.paths.arcs.c[:, 1]
     assert height[:4].mean() < height[-4:].mean()
 

@@ -20,7 +20,7 @@ def test_the_least_and_the_greatest_value_are_named(tmp_path: Path, scheme: str)
     assert ("B factor, Å²" if scheme == "bfactor" else "exposed area, Å²") in text
     if scheme == "bfactor":
         lines = Path(PROTEIN).read_text(encoding="ascii").splitlines()
-        factors = [float(line[60:66]) for line in lines if line.startswith(("ATOM", "HETATM"))]
+        factors = [float(line[60:66]) for line in lines if line.startswith(("ATOM", "HETATM")) and "HOH" not in line]
         for value in (min(factors), max(factors)):
             assert f">{value:.4g}<" in text
 
@@ -33,6 +33,11 @@ def test_text_can_be_read_out_of_a_pdf(tmp_path: Path) -> None:
     assert "B factor, Å²" in text_of_pdf(target.read_bytes())
 
 
-def test_a_legend_of_names_is_a_usage_error(tmp_path: Path) -> None:
-    result = CliRunner().invoke(main, ["draw", PROTEIN, "--legend", "-o", str(tmp_path / "x.svg")])
-    assert result.exit_code == 2
+def test_a_legend_of_names_shows_each_colour_once(tmp_path: Path) -> None:
+    target = tmp_path / "x.svg"
+    words = ["draw", PROTEIN, "--legend", "--color-by", "element", "--color", "resn MSE=crimson", "-o", str(target)]
+    assert CliRunner().invoke(main, words).exit_code == 0
+    text = target.read_text(encoding="utf-8")
+    for name in ("C", "N", "O", "S", "resn MSE"):
+        assert text.count(f">{name}</text>") == 1
+    assert "#dc143c" in text

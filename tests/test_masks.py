@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from molviz.model.spheres import Spheres
-from molviz.picture.compose import DrawOptions
+from molviz.picture.options import DrawOptions
 from molviz.picture.page import Page
-from molviz.picture.style import load_style
-from molviz.pipeline.draw import drawing_of
+from molviz.picture.palette import load_palette
+from molviz.pipeline.draw import DrawRequest, drawing_of
 from molviz.pipeline.inputs import InputOptions, Loaded, load
 from molviz.pipeline.views import ViewOptions, view_of
 from tests.render import needs_ghostscript, render_ps, render_svg
@@ -27,8 +27,9 @@ def mask(loaded: Loaded, eye: ViewOptions, suffix: str, method: str) -> tuple[by
     seen = view_of(loaded.spheres, eye).of(loaded.spheres)
     low, high = bounds(seen, eye.distance)
     scale = SIZE / float((high - low).max())
-    look = DrawOptions(load_style("default"), "index", outline=0.0, crease=0.0, page=Page(scale=scale))
-    return drawing_of(loaded, look, eye, method).to(suffix), seen, scale
+    page = Page(scale=scale)
+    look = DrawOptions(load_palette("tide"), color_by="index", outline=0.0, crease=0.0, page=page)
+    return drawing_of(loaded, DrawRequest(look), eye, method).to(suffix), seen, scale
 
 
 def bounds(spheres: Spheres, distance: float | None = None) -> tuple[np.ndarray, np.ndarray]:

@@ -10,13 +10,14 @@ from hypothesis import strategies as st
 
 from molviz.curves import PlaneArcs
 from molviz.picture.page import Page
+from molviz.picture.palette import load_palette
 from molviz.picture.picture import SPREAD, FillLayer, Picture, StackedLayer, StrokeLayer, TextLayer
 from molviz.picture.style import load_style
 from molviz.pipeline.views import ViewOptions
 from tests.oracle import random_spheres
 from tests.pages import balls, named, page, residues, shapes
 
-STYLE = load_style("default")
+STYLE = load_style("flat")
 SCALE = 40.0  # points per ångström of drawings that are small enough
 ONE = balls((0, 0, 0, 1))
 FUSED = balls((-0.5, 0, 0, 1), (0.5, 0, 0, 1))
@@ -152,7 +153,7 @@ def test_widths_are_the_styles_unless_asked_for_and_nought_draws_nothing(
     (*others,) = page(FUSED, method, outline=outline, crease=crease).layers
     strokes = others[1:] if method == "visible" else others[0].strokes
     assert {layer.name: layer.width for layer in strokes} == {name: width for name, width in widths.items() if width}
-    assert all(layer.color == STYLE.line_color == (0x1A, 0x1A, 0x1A) for layer in strokes)
+    assert all(layer.color == STYLE.lines.color == (0x1A, 0x1A, 0x1A) for layer in strokes)
 
 
 def test_lines_of_small_drawings_are_thinner() -> None:
@@ -164,29 +165,30 @@ def test_lines_of_small_drawings_are_thinner() -> None:
 
 def test_colours_of_names_are_the_styles() -> None:
     """Shapes stand by chain and residue in order of appearance: rows 0, 3, 2 of chain B, then 1, 4 of A."""
-    look, elements = STYLE, ["N", "S", "O", "C", "Fe"]
+    look, elements = STYLE.colors, ["N", "S", "O", "C", "Fe"]
+    tide = load_palette("tide")
     expected = {
         "element": [look.element[symbol] for symbol in elements],
         "residue": [look.residue[name] for name in ("CYS", "CYS", "ALA", "GLY", "GLY")],
-        "chain": [look.chain[0]] * 3 + [look.chain[1]] * 2,
+        "chain": [tide.chain[0]] * 3 + [tide.chain[1]] * 2,
         "index": [(0, 0, 1), (0, 0, 4), (0, 0, 3), (0, 0, 2), (0, 0, 5)],
     }
     for scheme, colors in expected.items():
         fills = page(MIXED, color_by=scheme).layers[0]
-        assert list(fills.color) == colors, scheme
+        assert list(fills.paint) == colors, scheme
         assert fills.spread == (0.0 if scheme == "index" else SPREAD)
 
 
 def test_numbers_are_coloured_between_the_least_and_the_greatest() -> None:
     fills = page(MIXED, color_by="bfactor").layers[0]
-    assert list(fills.color) == [STYLE.ramp[k] for k in (0, 1, 4, 2, 3)]
+    assert list(fills.paint) == [STYLE.colors.ramp[k] for k in (0, 1, 4, 2, 3)]
     inner = page(balls((-1.8, 0, 0, 1), (0, 0, 0, 1), (1.8, 0, 0, 1)), color_by="exposure").layers[0]
-    assert list(inner.color)[1] == STYLE.ramp[0] and STYLE.ramp[-1] in inner.color
+    assert list(inner.paint)[1] == STYLE.colors.ramp[0] and STYLE.colors.ramp[-1] in inner.paint
 
 
 def test_an_unknown_element_and_a_missing_number_have_the_unknown_colour() -> None:
-    assert page(ONE).layers[0].color == [STYLE.unknown]
-    assert page(ONE, color_by="bfactor").layers[0].color == [STYLE.unknown]
+    assert page(ONE).layers[0].paint == [STYLE.colors.unknown]
+    assert page(ONE, color_by="bfactor").layers[0].paint == [STYLE.colors.unknown]
 
 
 def test_shapes_are_grouped_by_chain_and_residue_in_order_of_appearance() -> None:
@@ -267,7 +269,7 @@ def test_without_fill_the_map_has_lines_only_and_the_painter_paints_the_backgrou
     assert list(named(page(FUSED, fill="none"))) == ["crease", "outline", "silhouette"]
     for background, color in ((None, (255, 255, 255)), ((9, 8, 7), (9, 8, 7))):
         (stack,) = page(FUSED, "painter", fill="none", background=background).layers
-        assert stack.fills.color == [color] * 2
+        assert stack.fills.paint == [color] * 2
 
 
 def test_a_legend_stands_beside_the_drawing() -> None:
@@ -275,23 +277,23 @@ def test_a_legend_stands_beside_the_drawing() -> None:
     assert [layer.name for layer in picture.layers] == [*named(plain), "legend", "legend text"]
     bar, text = picture.layers[-2:]
     assert isinstance(bar, FillLayer) and isinstance(text, TextLayer)
-    assert picture.width == pytest.approx(plain.width + 90, abs=1) and picture.box[2] == picture.width - 1
-    assert bar.color[0] == STYLE.ramp[0] and bar.color[-1] == STYLE.ramp[-1]
+    assert picture.width > plain.width + 40 and picture.box[2] > plain.box[2] + 40
+    assert bar.paint[0] == STYLE.colors.ramp[0] and bar.paint[-1] == STYLE.colors.ramp[-1]
     boxes = shapes(bar)
-    assert len(boxes) == len(bar.color) == len({mark.id for mark in bar.mark}) and all(b.area() > 0 for b in boxes)
+    assert len(boxes) == len(bar.paint) == len({mark.id for mark in bar.mark}) and all(b.area() > 0 for b in boxes)
     assert len({round(b.area(), 6) for b in boxes}) == 1
     assert [line.text for line in text.texts] == ["10", "30", "50", "B factor, Å²"]
     corner = bar.paths.arcs.c
     assert corner[:, 0].min() > plain.box[2] and text.texts[0].x > corner[:, 0].max()
     low, middle, high = (line.y for line in text.texts[:3])
-    assert middle == pytest.approx((low + high) / 2) and high > middle and text.color == STYLE.line_color
+    assert middle == pytest.approx((low + high) / 2) and high > middle and text.color == STYLE.lines.color
 
 
 def test_the_painter_stacks_every_ball_with_its_own_lines_from_back_to_front() -> None:
     (stack,) = page(balls((0, 0, 5, 1), (0, 0, 0, 1), (1, 0, 0.5, 1)), "painter", color_by="index").layers
     assert isinstance(stack, StackedLayer) and stack.name == "atoms"
     assert [layer.name for layer in stack.strokes] == ["crease", "outline"]
-    assert [mark.id for mark in stack.fills.mark] == ["X2", "X3", "X1"] and stack.fills.color[-1] == (0, 0, 1)
+    assert [mark.id for mark in stack.fills.mark] == ["X2", "X3", "X1"] and stack.fills.paint[-1] == (0, 0, 1)
     fills, creases, outlines = (shapes(layer) for layer in (stack.fills, *stack.strokes))
     assert [len(rows) for rows in (fills, creases, outlines)] == [3, 3, 3]
     assert [[len(loop.sweep) for loop in shape.loops] for shape in creases] == [[1], [1], []]

@@ -15,8 +15,9 @@ def lines(node: ast.stmt) -> int:
 
 
 def beside_docstring(node: ast.FunctionDef) -> int:
-    """How long a function is without its docstring: that of ``molviz.draw`` explains each option of the command."""
-    return lines(node) - (lines(node.body[0]) if ast.get_docstring(node) else 0)
+    """How long a function is below signature and docstring: those of ``molviz.draw`` hold all of its options."""
+    first = node.body[1 if ast.get_docstring(node) and len(node.body) > 1 else 0]
+    return (node.end_lineno or node.lineno) - first.lineno + 1
 
 
 def public(body: list[ast.stmt]) -> Iterator[ast.FunctionDef]:

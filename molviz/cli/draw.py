@@ -1,14 +1,15 @@
 """``molviz draw``: pictures of molecules."""
 
 import shlex
-import sys
 import time
+from dataclasses import replace
 from pathlib import Path, PurePath
 from typing import Any
 
 import click
 
 from molviz.cli.batch import for_each
+from molviz.cli.main import TYPED
 from molviz.cli.options import Parsed, applied, eye_options, input_options, load_and_warn, page_options, shared
 from molviz.cli.progress import Progress
 from molviz.picture.palette import PALETTES
@@ -19,6 +20,7 @@ from molviz.pipeline.outputs import save, target_of
 from molviz.pipeline.values import input_options_from, parse_scale_bar, view_options_from
 from molviz.pipeline.views import ViewOptions
 
+PLACES = ("-o", "--output", "--to")  # options that say where a result goes
 STAGES = 3  # reading, what is seen, writing
 
 SCALE_BAR = Parsed("ångström", parse_scale_bar)
@@ -70,7 +72,7 @@ def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
 
 def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     """Draw every input with the options of ``draw``."""
-    look = draw_request_from(options, drawn_by())
+    look = draw_request_from(options)
     wanted, eye = input_options_from(options), view_options_from(options)
     suffix, output = suffix_of(options["output"], options["to"]), options["output"] or "-"
     refuse_shared_targets(inputs, output, suffix)
@@ -81,9 +83,17 @@ def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     for_each(inputs, one)
 
 
-def drawn_by() -> str:
-    """Return the command line that draws, as it may be typed again."""
-    return shlex.join(["molviz", *sys.argv[1:]])
+def drawn_by(source: str) -> str:
+    """Return the command that draws one input, as it may be typed again: without where the result goes."""
+    typed = click.get_current_context().meta.get(TYPED, [])
+    kept: list[str] = []
+    for before, word in zip(["", *typed], typed, strict=False):
+        named = word.partition("=")[0]
+        if before not in PLACES and named not in (*PLACES, "--quiet", "--strict"):
+            kept.append(word)
+    inputs = click.get_current_context().params.get("inputs", ())
+    options = [word for word in kept[1:] if word not in inputs]
+    return shlex.join(["molviz", *kept[:1], PurePath(source).name, *options])
 
 
 def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str) -> None:
@@ -106,7 +116,8 @@ def _draw_one(
     one = only_model(load_and_warn(source, wanted, options["quiet"], options["strict"]))
     try:
         progress("what is seen")
-        drawing = drawing_of(one, look, eye, options["method"], options["check"])
+        described = replace(look, description=drawn_by(source))
+        drawing = drawing_of(one, described, eye, options["method"], options["check"])
         progress("writing")
         data = drawing.to(suffix, options["plotter"], options["paper"])
     finally:

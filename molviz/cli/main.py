@@ -18,6 +18,9 @@ COMMANDS = {  # name → module:object, imported when first used
 }
 
 
+TYPED = "molviz.typed"  # where a context holds the words after the program's name
+
+
 class Commands(click.Group):
     """Commands are imported one by one, errors in the input end in one line and exit status 1, molviz's own in 70."""
 
@@ -32,6 +35,11 @@ class Commands(click.Group):
         module, name = COMMANDS[cmd_name].split(":")
         command: click.Command = getattr(importlib.import_module(module), name)
         return command
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Keep what was typed, for files that say what drew them."""
+        ctx.meta[TYPED] = list(args)
+        return super().parse_args(ctx, args)
 
     def main(self, *args: Any, **kwargs: Any) -> Any:
         """Run; no traceback reaches the user."""

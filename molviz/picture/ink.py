@@ -14,7 +14,7 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths, PlaneArcs
 from molviz.geometry.rows import expand, lists_taken, offsets
 from molviz.vectors import cross, dot
-from molviz.visibility.horizon_runs import SPACING, HorizonRuns
+from molviz.visibility.horizon_runs import HorizonRuns
 from molviz.visibility.map import BACKGROUND
 
 OUTSIDE = 0.6  # of the width lies outside the horizon
@@ -106,10 +106,10 @@ def _smoothed(values: Floats, runs: HorizonRuns, sigma: float) -> Floats:
     owner = runs.owner()
     place = np.arange(len(values)) - runs.start[owner]
     count = np.diff(runs.start)[owner]
-    reach = int(np.ceil(3 * sigma / SPACING))
+    reach = int(np.ceil(3 * sigma / runs.spacing))
     total, weights = np.zeros(len(values)), 0.0
     for step in range(-reach, reach + 1):
-        weight = np.exp(-0.5 * (step * SPACING / sigma) ** 2)
+        weight = np.exp(-0.5 * (step * runs.spacing / sigma) ** 2)
         wrapped = np.mod(place + step, np.maximum(count - 1, 1))  # the last sample of a closed run is the first
         other = np.where(runs.closed[owner], wrapped, np.clip(place + step, 0, count - 1))
         total += weight * values[runs.start[owner] + other]
@@ -157,7 +157,7 @@ def strokes_of(runs: HorizonRuns, widths: Widths) -> Strokes:
 
 def outlined(runs: HorizonRuns, widths: Widths, strokes: Strokes) -> Paths:
     """Return one shape of one loop per stroke, the ink inside: arcs through three points of either side each."""
-    samples = (strokes.last - strokes.first) * SPACING
+    samples = (strokes.last - strokes.first) * runs.spacing
     pieces = np.maximum(np.ceil(samples / ARC).astype(np.int64), 1)
     owner, place = expand(np.zeros_like(pieces), 2 * pieces + 1)
     share = place / (2 * pieces[owner])

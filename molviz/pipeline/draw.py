@@ -56,7 +56,7 @@ class DrawRequest:
     options: DrawOptions
     colors: tuple[tuple[str, Color], ...] = ()  # selection, colour
     labels: tuple[str, ...] = ()  # SELECTION[=TEXT]
-    description: str = ""
+    description: str = ""  # the command that draws it
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -148,7 +148,7 @@ class Drawing:
         return json.dumps(data, separators=(",", ":")).encode() + b"\n"
 
 
-def draw_request_from(options: Options, description: str = "") -> DrawRequest:
+def draw_request_from(options: Options) -> DrawRequest:
     """Return the look of a picture; raises InputError for a style or palette that is none as well."""
     style, scheme = str(options["style"]), chosen(options, "color_by")
     look = DrawOptions(
@@ -166,7 +166,7 @@ def draw_request_from(options: Options, description: str = "") -> DrawRequest:
         scale_bar=given(options, "scale_bar", parse_scale_bar),
     )
     colors = given(options, "color", parse_all_painted) or ()
-    return DrawRequest(look, colors, given(options, "label", parse_labels) or (), description)
+    return DrawRequest(look, colors, given(options, "label", parse_labels) or ())
 
 
 def labelled_of(molecule: Molecule, text: str) -> Labelled:

@@ -13,6 +13,7 @@ from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.view import View
 
 SPACING = 0.2  # ångström between samples
+MOST = 5000  # samples across a drawing: in those of giants they lie farther apart
 
 
 class HorizonRuns(NamedTuple):
@@ -26,6 +27,7 @@ class HorizonRuns(NamedTuple):
     start: Ints  # (m + 1,) CSR offsets of the samples
     t: Floats  # (s,) parameters of the samples, equally spaced, both ends included
     behind: Ints  # (s,) the sphere seen just outside each sample, or BACKGROUND
+    spacing: float  # ångström between samples, roughly
     jump: Floats  # (s,) ångström from the horizon to the surface there, infinite before the background
 
     def owner(self) -> Ints:
@@ -51,7 +53,8 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     closed = origin[first] == target[last]
     before = _other_at(target, sphere, origin[first], sphere[first])
     after = _other_at(origin, sphere, target[last], sphere[first])
-    count = np.maximum(np.ceil(arcs.sweep * arcs.major() / SPACING).astype(np.int64), 2) + 1
+    spacing = max(SPACING, _width(arcs) / MOST)
+    count = np.maximum(np.ceil(arcs.sweep * arcs.major() / spacing).astype(np.int64), 2) + 1
     start = offsets(np.repeat(np.arange(len(first)), count), len(first))
     owner, place = expand(np.zeros_like(count), count)
     offset = arcs.sweep[owner] * place / (count[owner] - 1)
@@ -59,7 +62,13 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     t = arcs.start[owner] + offset
     page = arcs.take(owner).at(t)
     jump = _jumps(view_map, view, sphere[first][owner], behind, page)
-    return HorizonRuns(sphere[first], arcs, closed, before, after, start, t, behind, jump)
+    return HorizonRuns(sphere[first], arcs, closed, before, after, start, t, behind, spacing, jump)
+
+
+def _width(arcs: PlaneArcs) -> float:
+    """The larger side of the box around whole ellipses."""
+    half = arcs.half_extent()
+    return float(np.max(np.max(arcs.c + half, axis=0, initial=0.0) - np.min(arcs.c - half, axis=0, initial=0.0)))
 
 
 def _other_at(end: Ints, sphere: Ints, vertex: Ints, own: Ints) -> Ints:
