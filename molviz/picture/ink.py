@@ -22,7 +22,7 @@ SIGMA = 0.35  # ångström, of the smoothing of widths along a line
 SIGMA_INK = 0.5  # ångström, of the smoothing of where which ink is used
 THINNEST = 0.035  # ångström: a thinner line is not drawn
 THINNEST_SHARE = 0.13  # of the widest inner line
-ARC = 1.5  # ångström of a line's side that one arc of a circle stands for
+ARC = 7.5  # samples along a line's side that one arc of a circle stands for: 1.5 Å unless giants are drawn
 LONGEST_MITRE = 1.2  # ångström by which a side may be cut or prolonged
 SPUR = 1.1  # ångström: shorter lines are dropped unless both ends are wide
 SPUR_SHARE = 0.4  # of the widest inner line
@@ -157,8 +157,7 @@ def strokes_of(runs: HorizonRuns, widths: Widths) -> Strokes:
 
 def outlined(runs: HorizonRuns, widths: Widths, strokes: Strokes) -> Paths:
     """Return one shape of one loop per stroke, the ink inside: arcs through three points of either side each."""
-    samples = (strokes.last - strokes.first) * runs.spacing
-    pieces = np.maximum(np.ceil(samples / ARC).astype(np.int64), 1)
+    pieces = np.maximum(np.ceil((strokes.last - strokes.first) / ARC).astype(np.int64), 1)
     owner, place = expand(np.zeros_like(pieces), 2 * pieces + 1)
     share = place / (2 * pieces[owner])
     sample = strokes.first[owner] + share * (strokes.last - strokes.first)[owner]
