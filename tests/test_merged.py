@@ -91,7 +91,8 @@ def pixels_asked_and_wrong(
     number = np.unique(column, return_inverse=True)[1]
     names = np.append(number, -1)[rows]
     inside = interior(names)
-    near = beside_boundaries(drawing, number, corner, 1 / scale, names.shape)
+    parts = np.unique(np.char.add(column, loaded.molecule.chain), return_inverse=True)[1]  # regions never span chains
+    near = beside_boundaries(drawing, parts, corner, 1 / scale, names.shape)
     assert inside.sum() > least and np.sum(inside & near) < MOST_SLIVERS * inside.sum()
     inside &= ~near
     return int(inside.sum()), wrong_pixels(image, names, inside)
