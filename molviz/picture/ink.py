@@ -201,7 +201,16 @@ def _mitred(
         # the points of the last arc follow: half of the way for the one in the middle
         shift[last] += moved
         shift[last + np.where(end_place[owner[last]] == 0, 1, -1)] += moved / 2
-    return _beside(arcs, t + shift, offset)
+    return _beside(arcs, _forwards(t, shift, owner, pieces), offset)
+
+
+def _forwards(t: Floats, shift: Floats, owner: Ints, pieces: Ints) -> Floats:
+    """The shifted parameters; where the cuts at the two ends of a short side pass each other it is one point."""
+    last = np.cumsum(2 * pieces + 1) - 1
+    first = last - 2 * pieces
+    begin, end = (t + shift)[first], (t + shift)[last]
+    point = np.where(shift[last] == 0, end, np.where(shift[first] == 0, begin, (begin + end) / 2))
+    return np.asarray(np.where((end < begin)[owner], point[owner], t + shift))
 
 
 def _to_horizon(runs: HorizonRuns, arcs: PlaneArcs, host: Ints, t: Floats, offset: Floats) -> Floats:

@@ -23,6 +23,7 @@ STYLES = tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
 ROOT = "flat"  # the style that states every key
 WIDEST = 1000.0  # points or ångström of any line or distance
 DEEPEST = 1000.0  # ångström of any jump or skirt
+CLOSEST = 0.1  # points between lines of hatching: closer ones are a tone, and too many
 LEAST_RAMP = 1e-3  # ångström between the jumps at which lines begin and are full
 MOST_BASES = 8  # of a chain of styles; a longer one is a circle
 
@@ -199,7 +200,8 @@ def _laid_over(base: Table, table: Table) -> Table:
     """The base with the table's values in the place of its own, section by section."""
     both = dict(base)
     for key, value in table.items():
-        both[key] = _laid_over(base[key], value) if isinstance(value, dict) and key in base else value
+        inner = base.get(key)
+        both[key] = _laid_over(inner, value) if isinstance(value, dict) and isinstance(inner, dict) else value
     return both
 
 
@@ -322,10 +324,11 @@ def _light(light: _Section) -> Light:
 
 
 def _hatch(hatch: _Section) -> Hatch:
-    return Hatch(
-        hatch.number("nearest", 0, WIDEST), hatch.number("farthest", 0, WIDEST),
-        hatch.number("angle", -360, 360), hatch.number("width", 0, WIDEST),
-    )  # fmt: skip
+    nearest = hatch.number("nearest", 0, WIDEST)
+    if 0 < nearest < CLOSEST:
+        raise hatch.wrong("nearest", f"0 or numbers from {CLOSEST:g} to {WIDEST:g}")
+    farthest = hatch.number("farthest", CLOSEST, WIDEST)
+    return Hatch(nearest, farthest, hatch.number("angle", -360, 360), hatch.number("width", 0, WIDEST))
 
 
 def _colors(colors: _Section) -> Colors:
