@@ -246,7 +246,7 @@ def horizon_gap(runs: HorizonRuns, host: int, points: np.ndarray) -> np.ndarray:
 def corners(strokes: Strokes, paths: Paths, row: int) -> tuple[np.ndarray, np.ndarray]:
     """The outer and the inner point at the start of a stroke, and at its end."""
     loop = loops(paths)[int(paths.shape_start[row])]
-    pieces = max(math.ceil((strokes.last[row] - strokes.first[row]) * SPACING / ARC), 1)
+    pieces = max(math.ceil((strokes.last[row] - strokes.first[row]) / ARC), 1)
     points = loop.starts()
     return points[[0, 2 * pieces + 1]], points[[pieces, pieces + 1]]
 
