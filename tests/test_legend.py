@@ -41,3 +41,15 @@ def test_a_legend_of_names_shows_each_colour_once(tmp_path: Path) -> None:
     for name in ("C", "N", "O", "S", "resn MSE"):
         assert text.count(f">{name}</text>") == 1
     assert "#dc143c" in text
+
+
+def test_more_chains_than_colours_are_told(tmp_path: Path) -> None:
+    lines = [
+        f"ATOM  {k + 1:>5}  CA  GLY {chr(65 + k)}{1:>4}    {4.0 * k:8.3f}{0:8.3f}{0:8.3f}  1.00  0.00           C  \n"
+        for k in range(26)
+    ]
+    source = tmp_path / "many.pdb"
+    source.write_text("".join(lines), encoding="ascii")
+    words = ["draw", str(source), "-o", str(tmp_path / "x.svg"), "--color-by", "chain"]
+    assert "26 chains share 24 colours" in CliRunner().invoke(main, words).stderr
+    assert "share" not in CliRunner().invoke(main, [*words, "--chain", "A,B"]).stderr

@@ -193,7 +193,7 @@ def test_an_unknown_element_and_a_missing_number_have_the_unknown_colour() -> No
 
 def test_shapes_are_grouped_by_chain_and_residue_in_order_of_appearance() -> None:
     marks = page(MIXED).layers[0].mark
-    assert [mark.id for mark in marks] == ["B1N", "B1S", "B2O", "A1C", "A1Fe"]
+    assert [mark.id for mark in marks] == ["B_CYS_1_N", "B_CYS_1_S", "B_ALA_2_O", "A_GLY_1_C", "A_GLY_1_Fe"]
     assert [mark.title for mark in marks] == ["CYS 1 N", "CYS 1 S", "ALA 2 O", "GLY 1 C", "GLY 1 Fe"]
     assert [mark.classes for mark in marks] == [("N",), ("S",), ("O",), ("C",), ("Fe",)]
     chain_a, chain_b = ("A", "chain chain-A"), ("B", "chain chain-B")
@@ -205,7 +205,7 @@ def test_shapes_are_grouped_by_chain_and_residue_in_order_of_appearance() -> Non
 def test_painted_atoms_carry_their_residues_as_classes() -> None:
     (stack,) = page(MIXED, "painter").layers
     marks = {mark.id: mark for mark in stack.fills.mark}
-    assert marks["B1S"].classes == ("S", "CYS", "chain-B") and marks["A1C"].classes == ("C", "GLY", "chain-A")
+    assert marks["B_CYS_1_S"].classes == ("S", "CYS", "chain-B") and marks["A_GLY_1_C"].classes == ("C", "GLY", "chain-A")
     assert all(mark.groups == () for mark in marks.values()) and len(marks) == 5
 
 

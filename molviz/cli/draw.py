@@ -10,7 +10,7 @@ import click
 
 from molviz.cli.batch import for_each
 from molviz.cli.main import TYPED
-from molviz.cli.options import Parsed, applied, eye_options, input_options, load_and_warn, page_options, shared
+from molviz.cli.options import Parsed, applied, eye_options, input_options, load_and_warn, page_options, shared, warn
 from molviz.cli.progress import Progress
 from molviz.picture.palette import PALETTES
 from molviz.picture.style import STYLES
@@ -118,6 +118,7 @@ def _draw_one(
         progress("what is seen")
         described = replace(look, description=drawn_by(source))
         drawing = drawing_of(one, described, eye, options["method"], options["check"])
+        warn(drawing.notes, options["quiet"], options["strict"])
         progress("writing")
         data = drawing.to(suffix, options["plotter"], options["paper"])
     finally:

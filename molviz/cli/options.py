@@ -1,7 +1,7 @@
 """Options that several commands share: click's words become values of the pipeline."""
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from inspect import signature
 from typing import Any, TypeAlias
 
@@ -112,13 +112,17 @@ def load_and_warn(source: str, wanted: InputOptions, quiet: bool, strict: bool) 
     """Return the wanted models; warnings go to standard error, or are raised as InputError if strict."""
     data = _standard_input() if source == "-" else None
     loaded = load(source, wanted, data)
-    warnings = dict.fromkeys(warning for one in loaded for warning in one.warnings)
-    for warning in warnings:
+    warn([warning for one in loaded for warning in one.warnings], quiet, strict)
+    return loaded
+
+
+def warn(warnings: Iterable[str], quiet: bool, strict: bool) -> None:
+    """Tell each warning once on standard error, or raise the first as InputError if strict."""
+    for warning in dict.fromkeys(warnings):
         if strict:
             raise InputError(warning)
         if not quiet:
             click.echo(f"molviz: {warning}", err=True)
-    return loaded
 
 
 def _standard_input() -> bytes:

@@ -15,7 +15,7 @@ def _mark(chain: str, name: str, residue: str, atom: str, element: str, row: int
     if not name:
         return Mark(id=f"{element}{row + 1}", title=f"{atom} {row + 1}", classes=(element,))
     place = f"{name} {residue}"
-    mark_id, title = f"{chain}{residue}{atom}", f"{place} {atom}"
+    mark_id, title = "_".join(filter(None, (chain, name, residue, atom))), f"{place} {atom}"
     if grouped:
         return Mark(mark_id, title, (element,), ((chain or "-", f"chain chain-{chain}"), (place, f"residue {name}")))
     return Mark(mark_id, title, (element, name, f"chain-{chain}" if chain else "chain"))

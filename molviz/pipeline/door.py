@@ -88,7 +88,9 @@ def draw(
     look, view_options = draw_request_from(options), view_options_from(options)
     loaded = load_one(x, options)
     tell(loaded.warnings, stacklevel=3)
-    return drawing_of(loaded, look, view_options, chosen(options, "method"), check)
+    drawing = drawing_of(loaded, look, view_options, chosen(options, "method"), check)
+    tell(drawing.notes, stacklevel=3)
+    return drawing
 
 
 def measure(

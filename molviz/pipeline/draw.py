@@ -78,6 +78,15 @@ class Drawing:
     _seen: VisibilityMap | Pieces
     _atom: Ints  # row of the molecule of each of the spheres in it
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is odd about the picture: colours that stand for more than one chain."""
+        chains = len(np.unique(self._loaded.molecule.chain))
+        if self._options.color_by != "chain" or not self._options.palette.repeats(chains):
+            return ()
+        colors = len(self._options.palette.chain)
+        return (f"{self._loaded.source}: {chains} chains share {colors} colours; expected a palette of more to tell apart",)
+
     def __repr__(self) -> str:
         return (
             f"<Drawing of {self._loaded.molecule.name!r}: {self.atoms_read} atoms read, {self.atoms_drawn} drawn, "

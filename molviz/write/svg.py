@@ -235,8 +235,9 @@ class Nest:
         common = next((k for k, pair in enumerate(zip(names, self.names, strict=False)) if pair[0] != pair[1]), None)
         common = min(len(names), len(self.names)) if common is None else common
         del self.names[common:], self.open[common + 1 :]
-        for name, css_class in names[common:]:
-            group = self.elements.group(name, class_=" ".join(map(token, css_class.split())))
+        for depth, (name, css_class) in enumerate(names[common:], common + 1):
+            path = "_".join(outer for outer, _ in names[:depth])  # A_VAL 96: the same in every chain else
+            group = self.elements.group(path, class_=" ".join(map(token, css_class.split())))
             group.set_desc(clean(name))
             self.open.append(self.open[-1].add(group))
             self.names.append((name, css_class))
