@@ -50,11 +50,11 @@ def test_a_skirt_is_seen_where_the_surface_lies_below_it(
     spheres = eye_coordinates(scene, view)
     low = float(np.sqrt(2 * 2.0 * reach + reach**2)) + deeper
     copies = skirts(spheres, np.arange(0, 25, 2), reach, low, view)
-    view_map, region = seen_of_copies(spheres, copies, view)
+    view_map = seen_of_copies(spheres, copies, view)
     points = points_off(view_map.arcs, spheres, seed)
     own, _ = nearest_surfaces(spheres, view, points)
     skirt, _ = nearest_surfaces(copies, view, points)
-    assert np.array_equal(inside(view_map.arcs, region, points), skirt > own)
+    assert np.array_equal(inside(view_map.arcs, view_map.loops, points), skirt > own)
 
 
 @given(st.integers(0, 10**6), st.floats(-0.9, 0.9))
@@ -64,13 +64,13 @@ def test_a_shaded_side_is_where_light_falls_less(seed: int, cosine: float) -> No
     view = file_axes(scene)
     spheres = eye_coordinates(scene, view)
     light = np.array([-0.45, 0.6, 0.66]) / np.linalg.norm([-0.45, 0.6, 0.66])
-    view_map, region = seen_of_copies(spheres, shaded_sides(spheres, light, cosine), view)
+    view_map = seen_of_copies(spheres, shaded_sides(spheres, light, cosine), view)
     points = points_off(view_map.arcs, spheres, seed)
     height, own = nearest_surfaces(spheres, view, points)
     seen = height > -np.inf
     points, height, own = points[seen], height[seen], own[seen]
     normal = (np.column_stack([points, height]) - spheres.center[own]) / spheres.radius[own][:, None]
-    assert np.array_equal(inside(view_map.arcs, region, points), normal @ light < cosine)
+    assert np.array_equal(inside(view_map.arcs, view_map.loops, points), normal @ light < cosine)
 
 
 def test_the_rim_of_a_skirt_lies_a_drop_below_the_horizon() -> None:
@@ -81,8 +81,8 @@ def test_the_rim_of_a_skirt_lies_a_drop_below_the_horizon() -> None:
         floor = Spheres(np.array([[0.0, 0.0, -1000.0 - depth]]), np.array([1000.0]))
         spheres = Spheres(np.concatenate([[[0.0, 0.0, 0.0]], floor.center]), np.array([1.0, 1000.0]))
         view = View(np.eye(3), np.zeros(3))
-        view_map, region = seen_of_copies(spheres, skirts(spheres, np.array([0]), 0.5, low, view), view)
-        assert inside(view_map.arcs, region, np.array([[1.01, 0.0]]))[0] == shows
+        view_map = seen_of_copies(spheres, skirts(spheres, np.array([0]), 0.5, low, view), view)
+        assert inside(view_map.arcs, view_map.loops, np.array([[1.01, 0.0]]))[0] == shows
 
 
 def test_a_lone_tip_is_no_ledge() -> None:
@@ -126,5 +126,5 @@ def test_nothing_is_seen_of_copies_behind(distance: float | None) -> None:
     scene = random_spheres(5, 20, 4.0)
     view = file_axes(scene, distance)
     spheres = eye_coordinates(scene, view)
-    _, region = seen_of_copies(spheres, skirts(spheres, np.arange(20), -0.1, 5.0, view), view)
-    assert not np.any(region.face == 1)
+    view_map = seen_of_copies(spheres, skirts(spheres, np.arange(20), -0.1, 5.0, view), view)
+    assert not np.any(view_map.loops.face == 1)

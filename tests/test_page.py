@@ -205,7 +205,8 @@ def test_shapes_are_grouped_by_chain_and_residue_in_order_of_appearance() -> Non
 def test_painted_atoms_carry_their_residues_as_classes() -> None:
     (stack,) = page(MIXED, "painter").layers
     marks = {mark.id: mark for mark in stack.fills.mark}
-    assert marks["B_CYS_1_S"].classes == ("S", "CYS", "chain-B") and marks["A_GLY_1_C"].classes == ("C", "GLY", "chain-A")
+    assert marks["B_CYS_1_S"].classes == ("S", "CYS", "chain-B")
+    assert marks["A_GLY_1_C"].classes == ("C", "GLY", "chain-A")
     assert all(mark.groups == () for mark in marks.values()) and len(marks) == 5
 
 

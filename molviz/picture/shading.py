@@ -84,8 +84,8 @@ def light_bands(
 
 def _region(spheres: Spheres, copies: Spheres, view: View, placement: Placement) -> Paths:
     """The region in which copies are seen, as one shape on the page."""
-    view_map, boundary = seen_of_copies(spheres, copies, view)
-    chains = closed_chains(boundary, np.flatnonzero(boundary.face == 1))
+    view_map = seen_of_copies(spheres, copies, view)
+    chains = closed_chains(view_map.loops, np.flatnonzero(view_map.loops.face == 1))
     arcs: PlaneArcs = view_map.arcs.moved(placement.scale, placement.shift)
     return shapes_of(arcs, view_map.curve_arcs.curve, chains)
 

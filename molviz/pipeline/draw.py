@@ -84,8 +84,8 @@ class Drawing:
         chains = len(np.unique(self._loaded.molecule.chain))
         if self._options.color_by != "chain" or not self._options.palette.repeats(chains):
             return ()
-        colors = len(self._options.palette.chain)
-        return (f"{self._loaded.source}: {chains} chains share {colors} colours; expected a palette of more to tell apart",)
+        told = f"{chains} chains share {len(self._options.palette.chain)} colours; expected a palette of more"
+        return (f"{self._loaded.source}: {told}",)
 
     def __repr__(self) -> str:
         return (

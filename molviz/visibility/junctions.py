@@ -24,6 +24,10 @@ class CurveArcs(NamedTuple):
     origin: Ints  # (k,)
     target: Ints  # (k,)
 
+    def take(self, rows: Ints) -> "CurveArcs":
+        """Return the given rows, in that order."""
+        return CurveArcs(self.curve[rows], self.start[rows], self.sweep[rows], self.origin[rows], self.target[rows])
+
 
 class _Junctions(NamedTuple):
     """Points at which arcs are to be split, by arc and offset from its start."""

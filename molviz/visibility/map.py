@@ -65,15 +65,21 @@ class VisibilityMap(NamedTuple):
 
 
 def map_in_view(
-    boundary: Boundary, spheres: SphereOccluders, wanted: Ints, view: View, projection: Projection
+    boundary: Boundary,
+    spheres: SphereOccluders,
+    wanted: Ints,
+    view: View,
+    projection: Projection,
+    label: Ints | None = None,
 ) -> VisibilityMap:
     """Return the map of what is seen of the ``wanted`` spheres (ascending), as if there were no others.
 
-    ``spheres`` are the boundary's in eye coordinates; the map numbers spheres by their place in ``wanted``. Raises
-    ``Degenerate`` where the spheres are not in general position.
+    ``spheres`` are the boundary's in eye coordinates; the map numbers spheres by their place in ``wanted``. Where a
+    ``label`` (n,) from 0 of all spheres is given, faces carry labels, and only what separates different ones is
+    computed. Raises ``Degenerate`` where the spheres are not in general position.
     """
-    spheres = spheres.take(wanted)
-    creases, hidden = _creases_between(boundary, wanted, view)
+    spheres, label = spheres.take(wanted), np.arange(len(wanted)) if label is None else label[wanted]
+    creases, hidden = _creases_between(boundary, wanted, label, view)
     horizons = spheres.horizons()
     curves = creases.followed_by(horizons)
     discs = discs_of(horizons, projection)
@@ -89,16 +95,17 @@ def map_in_view(
     ])  # fmt: skip
     named = visible_arcs(curves, np.arange(len(curves.first)), hidden)
     curve_arcs, entered = split_at_junctions(named, curves, horizons, spheres)
-    return _assembled(spheres, curves, curve_arcs, entered, near, projection)
+    sides = _sides(spheres, curves, curve_arcs, entered, near, projection)
+    return _assembled(spheres, curves, curve_arcs, np.append(label, BACKGROUND)[sides], projection)
 
 
-def _creases_between(boundary: Boundary, wanted: Ints, view: View) -> tuple[Curves, Hidden]:
-    """One curve for each free arc of a crease between wanted spheres, and what balls hide of it."""
+def _creases_between(boundary: Boundary, wanted: Ints, label: Ints, view: View) -> tuple[Curves, Hidden]:
+    """One curve for each free arc of a crease between wanted spheres of different labels, and what balls hide of it."""
     number = np.full(len(boundary.spheres.radius) + 1, -1)  # row −1 stays −1
     number[wanted] = np.arange(len(wanted))
     circle = boundary.arcs.circle
     first, second = number[boundary.circles.first[circle]], number[boundary.circles.second[circle]]
-    arc = np.flatnonzero((first >= 0) & (second >= 0))
+    arc = np.flatnonzero((first >= 0) & (second >= 0) & (label[first] != label[second]))
     hidden = outside_free_arcs(boundary, arc)
     creases = creases_in_view(boundary.circles.take(circle[arc]), view)
     return (
@@ -107,28 +114,38 @@ def _creases_between(boundary: Boundary, wanted: Ints, view: View) -> tuple[Curv
     )
 
 
-def _assembled(
+def _sides(
     spheres: SphereOccluders,
     curves: Curves,
     curve_arcs: CurveArcs,
     entered: Ints,
     near: Neighbours,
     projection: Projection,
-) -> VisibilityMap:
-    """Name the faces beside each arc: ``second`` left and ``first`` right of a crease, what is behind of a horizon.
+) -> Ints:
+    """The spheres on the left and the right of each arc (2, k), BACKGROUND where there is none.
 
-    Beside a horizon that is about to enter a ball that ball is seen, however short the arc: of neighbours at almost
-    one height it is as short as the square of their difference, and its middle would be a matter of rounding.
+    ``second`` lies left and ``first`` right of a crease, on the right of a horizon what is behind it. Beside a horizon
+    that is about to enter a ball that ball is seen, however short the arc: of neighbours at almost one height it is as
+    short as the square of their difference, and its middle would be a matter of rounding.
     """
-    arcs = projection.page_arcs(curves, curve_arcs.curve, curve_arcs.start, curve_arcs.sweep)
     left, right = curves.second[curve_arcs.curve], curves.first[curve_arcs.curve]
     rows = np.flatnonzero(~curves.is_crease()[curve_arcs.curve])
-    points = arcs.take(rows).at(arcs.middle()[rows])
-    right[rows] = _behind(spheres, left[rows], points, near)
+    arcs = projection.page_arcs(curves, curve_arcs.curve[rows], curve_arcs.start[rows], curve_arcs.sweep[rows])
+    right[rows] = _behind(spheres, left[rows], arcs.at(arcs.middle()), near)
     for end, other in ((curve_arcs.origin, curve_arcs.target), (curve_arcs.target, curve_arcs.origin)):
         beside = rows[(entered[end[rows]] >= 0) & (entered[other[rows]] < 0)]
         right[beside] = entered[end[beside]]
-    edges = planar_map(curve_arcs.origin, curve_arcs.target, left, right)
+    return np.stack([left, right])
+
+
+def _assembled(
+    spheres: SphereOccluders, curves: Curves, curve_arcs: CurveArcs, sides: Ints, projection: Projection
+) -> VisibilityMap:
+    """The map of the arcs whose sides (2, k) carry different labels."""
+    rows = np.flatnonzero(sides[0] != sides[1])
+    curve_arcs = curve_arcs.take(rows)
+    arcs = projection.page_arcs(curves, curve_arcs.curve, curve_arcs.start, curve_arcs.sweep)
+    edges = planar_map(curve_arcs.origin, curve_arcs.target, sides[0, rows], sides[1, rows])
     return VisibilityMap(spheres.spheres, curves, curve_arcs, arcs, edges, loops(edges))
 
 

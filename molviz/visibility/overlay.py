@@ -8,14 +8,12 @@ from a light and grown as little is seen on the side of its sphere that the ligh
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.general_position import Degenerate
 from molviz.geometry.grid import neighbours
-from molviz.geometry.planar_map import Loops, loops, merged_faces
 from molviz.geometry.rows import expand
 from molviz.model.spheres import Spheres
 from molviz.visibility.eye import from_the_eye, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
-from molviz.visibility.scene import Scene, map_as_given
+from molviz.visibility.scene import labelled_map
 from molviz.visibility.view import View
 
 MOVED = 1e-3  # of a radius: how far a copy that marks a side of its sphere is moved, and sticks out at most
@@ -27,20 +25,14 @@ def seen_spheres(view_map: VisibilityMap) -> Ints:
     return np.asarray(faces[faces != BACKGROUND])
 
 
-def seen_of_copies(spheres: Spheres, copies: Spheres, view: View) -> tuple[VisibilityMap, Loops]:
-    """Return the map of spheres with copies among them, and the loops of the region in which a copy is seen.
+def seen_of_copies(spheres: Spheres, copies: Spheres, view: View) -> VisibilityMap:
+    """Return the map in which face 0 is what is seen of the spheres and face 1 what is seen of copies among them.
 
-    Both in eye coordinates of the view. Loops of face 1 bound the region of all copies.
+    Both in eye coordinates of the view.
     """
     both = Spheres(*(np.concatenate(columns) for columns in zip(spheres, copies, strict=True)))
-    eye_view = from_the_eye(view)
-    try:
-        view_map, row = map_as_given(both, eye_view)
-    except Degenerate:
-        view_map, row = Scene(both, only=eye_view).map(eye_view)
-    is_copy = np.append(row >= len(spheres.radius), False).astype(np.int64)  # the last one stands for the background
-    region = loops(merged_faces(view_map.edges, is_copy[view_map.edges.face]))
-    return view_map, region
+    is_copy = (np.arange(len(both.radius)) >= len(spheres.radius)).astype(np.int64)
+    return labelled_map(both, is_copy, from_the_eye(view))
 
 
 def skirts(spheres: Spheres, rows: Ints, reach: float, low: float, view: View) -> Spheres:

@@ -79,10 +79,11 @@ def _possibly_visible(spheres: Spheres, view: View) -> Ints:
     return np.flatnonzero(possibly_visible(occluders, projection_of(view)))
 
 
-def _map(prepared: Prepared, view: View) -> tuple[VisibilityMap, Ints]:
+def _map(prepared: Prepared, view: View, label: Ints | None = None) -> tuple[VisibilityMap, Ints]:
     spheres, wanted = prepared.boundary.spheres, _possibly_visible(prepared.boundary.spheres, view)
     occluders = occluders_of(eye_coordinates(spheres, view), view)
-    view_map = map_in_view(prepared.boundary, occluders, wanted, view, projection_of(view))
+    labels = None if label is None else label[prepared.row]
+    view_map = map_in_view(prepared.boundary, occluders, wanted, view, projection_of(view), labels)
     return view_map, prepared.row[wanted]
 
 
@@ -92,10 +93,19 @@ def _pieces(prepared: Prepared, view: View) -> tuple[Pieces, Ints]:
     return painter_pieces(prepared.boundary, occluders, wanted, view, projection_of(view)), prepared.row
 
 
-def map_as_given(spheres: Spheres, view: View) -> tuple[VisibilityMap, Ints]:
-    """Return the map of spheres that are in general position, and their rows; raises ``Degenerate`` if they are not."""
-    keep = _possibly_visible(spheres, view)
-    return _map(Prepared(union_boundary(spheres.take(keep)), keep), view)
+def labelled_map(spheres: Spheres, label: Ints, view: View) -> VisibilityMap:
+    """Return the map whose faces are what is seen of the spheres of each label (n,), from 0.
+
+    The spheres are taken as they are, and displaced only if they prove not to be in general position.
+    """
+
+    def prepared(attempt: int) -> Prepared:
+        if attempt:
+            return _prepare(spheres, attempt - 1, view)
+        keep = _possibly_visible(spheres, view)
+        return Prepared(union_boundary(spheres.take(keep)), keep)
+
+    return first_general(lambda attempt: _map(prepared(attempt), view, label)[0])
 
 
 def extent(spheres: Spheres, view: View) -> tuple[Floats, Floats]:
