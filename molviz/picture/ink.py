@@ -23,7 +23,8 @@ SIGMA_INK = 0.5  # ångström, of the smoothing of where which ink is used
 THINNEST = 0.035  # ångström: a thinner line is not drawn
 THINNEST_SHARE = 0.13  # of the widest inner line
 ARC = 7.5  # samples along a line's side that one arc of a circle stands for: 1.5 Å unless giants are drawn
-LONGEST_MITRE = 1.2  # ångström by which a side may be cut or prolonged
+LONGEST_CUT = 1.2  # ångström by which a side may be cut
+LONGEST_TIP = 4.0  # of its distance from the horizon, by which a side may be prolonged: longer tips are thorns
 SPUR = 1.1  # ångström: shorter lines are dropped unless both ends are wide
 SPUR_SHARE = 0.4  # of the widest inner line
 FARTHER_THINNER = 0.3  # by which lines of the farthest spheres are thinner
@@ -192,12 +193,12 @@ def _mitred(
     run = strokes.run[owner]
     arcs = runs.arcs.take(run)
     shift = np.zeros(len(t))
-    for at_end, host, end_place in (
-        (strokes.at_start, runs.before, np.zeros_like(pieces)),
-        (strokes.at_end, runs.after, 2 * pieces),
+    for at_end, host, end_place, onward in (
+        (strokes.at_start, runs.before, np.zeros_like(pieces), -1.0),
+        (strokes.at_end, runs.after, 2 * pieces, 1.0),
     ):
         last = np.flatnonzero((place == end_place[owner]) & at_end[owner] & (host[run] >= 0))
-        moved = _to_horizon(runs, arcs.take(last), host[run[last]], t[last], offset[last])
+        moved = _to_horizon(runs, arcs.take(last), host[run[last]], t[last], offset[last], onward)
         # the points of the last arc follow: half of the way for the one in the middle
         shift[last] += moved
         shift[last + np.where(end_place[owner[last]] == 0, 1, -1)] += moved / 2
@@ -213,14 +214,21 @@ def _forwards(t: Floats, shift: Floats, owner: Ints, pieces: Ints) -> Floats:
     return np.asarray(np.where((end < begin)[owner], point[owner], t + shift))
 
 
-def _to_horizon(runs: HorizonRuns, arcs: PlaneArcs, host: Ints, t: Floats, offset: Floats) -> Floats:
-    """By how much each end must move along its curve to lie on the image of the host's horizon; 0 if that is far."""
+def _to_horizon(
+    runs: HorizonRuns, arcs: PlaneArcs, host: Ints, t: Floats, offset: Floats, onward: float
+) -> Floats:
+    """By how much each end must move along its curve to lie on the image of the host's horizon; 0 if that is far.
+
+    ``onward`` is the direction, 1 or −1, in which lines go on beyond these ends.
+    """
     ellipse = _horizon_images(runs, host)
     size, step = arcs.major(), np.zeros(len(t))
+    cut, tip = -onward * LONGEST_CUT / size, onward * LONGEST_TIP * np.abs(offset) / size
+    low, high = np.minimum(cut, tip), np.maximum(cut, tip)
     for _ in range(MITRE_STEPS):
         value, slope = _inside(ellipse, arcs, t + step, offset)
         step = step - np.where(np.abs(slope) > 1e-9, value / np.where(slope == 0, 1.0, slope), 0.0)
-        step = np.clip(step, -LONGEST_MITRE / size, LONGEST_MITRE / size)
+        step = np.clip(step, low, high)
     value, _ = _inside(ellipse, arcs, t + step, offset)
     return np.asarray(np.where(np.abs(value) < 1e-6, step, 0.0))
 
