@@ -20,6 +20,7 @@ from tests.render import (
     seen_by_resvg,
 )
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*without element")
 SAMPLES = Path(__file__).parent.parent / "samples"
 PIXELS = 3  # to the point: about 900 across
 WIDTH = 288  # points, of the drawing

@@ -22,6 +22,7 @@ from molviz.pipeline.views import ViewOptions
 from tests.pdb_lines import atom
 from tests.render import needs_pdftotext, text_of_pdf
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*without element")
 SAMPLES = Path(__file__).parent.parent / "samples"
 TIDE = load_palette("tide")
 PEPTIDE = [("N", " N  "), ("C", " CA "), ("C", " C  "), ("O", " O  ")]
