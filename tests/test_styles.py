@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 import molviz
+from molviz.errors import InputError
 from molviz.picture.ink import line_widths
 from molviz.picture.oklab import lightness
-from molviz.picture.style import load_style
+from molviz.picture.style import STYLES, load_style
 from molviz.visibility.horizon_runs import horizon_runs
 from molviz.visibility.map import BACKGROUND
 
@@ -44,3 +45,16 @@ def test_silhouettes_have_no_gaps(name: str) -> None:
     outer &= runs.length() > SHORT
     assert outer.sum() > 12
     assert widths[outer[runs.owner()]].min() == pytest.approx(ink.silhouette.at(scale))
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("goodsel", "goodsel: no such style or file; did you mean 'goodsell'?"),
+        ("zzz", f"zzz: no such style or file; expected one of {', '.join(STYLES)} or a TOML file"),
+    ],
+)
+def test_no_style_is_told_once(name: str, told: str) -> None:
+    with pytest.raises(InputError) as raised:
+        load_style(name)
+    assert str(raised.value) == told
