@@ -8,9 +8,11 @@ SAMPLES := $(wildcard samples/*.pdb samples/*.pdb.gz samples/*.cif samples/*.cif
 STEMS := $(basename $(notdir $(SAMPLES:.gz=)))
 PICTURES := $(foreach stem,$(STEMS),pictures/$(stem).svg pictures/$(stem).ps)
 DRAW_OPTIONS ?=
+# for black lines and text, which a dark page would swallow
+PAPER := --background white
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check pictures docs bench tables figures clean
+.PHONY: help demo test check pictures gallery bench tables figures clean
 
 help: ## show this help
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -48,13 +50,19 @@ pictures/$(basename $(notdir $(1:.gz=))).svg pictures/$(basename $(notdir $(1:.g
 endef
 $(foreach sample,$(SAMPLES),$(eval $(call picture_rules,$(sample))))
 
-docs: $(VENV)/installed ## redraw the README's pictures
-	$(MOLVIZ) draw samples/caffeine.xyz --width 8cm -o docs/caffeine.svg
-	$(MOLVIZ) draw samples/1tii.pdb.gz --no-water --color-by chain --width 14cm -o docs/1tii.svg
-	$(MOLVIZ) draw samples/c60.xyz --perspective 15 --width 8cm -o docs/c60.svg
-	$(MOLVIZ) hidden-lines samples/1a1f.pdb --no-water --width 14cm -o docs/1a1f-lines.svg
-	$(MOLVIZ) hidden-lines --random 1000 --shrink --radius 0.135 -o docs/gas.svg
-	$(MOLVIZ) draw samples/1a8o.pdb --no-water --color-by exposure --legend --width 10cm -o docs/1a8o-exposure.svg
+gallery: $(VENV)/installed ## redraw the README's pictures into docs/
+	$(MOLVIZ) draw samples/1tii.pdb.gz --rotate y,-60 --width 14cm -o docs/goodsell.svg
+	$(MOLVIZ) draw samples/caffeine.xyz --width 8cm -o docs/cel.svg
+	$(MOLVIZ) draw samples/nacl.extxyz --style shaded --perspective 40 --rotate y,30 --rotate x,20 --width 8cm \
+		-o docs/shaded.svg
+	$(MOLVIZ) draw samples/1lcd.cif.gz --palette clay --width 8cm -o docs/clay.svg
+	$(MOLVIZ) draw samples/1hpv.pdb.gz --label 'resn 478=amprenavir' --title 'HIV-1 protease' --scale-bar --legend \
+		--width 10cm $(PAPER) -o docs/labels.svg
+	$(MOLVIZ) draw samples/1a8o.pdb --style flat --color-by exposure --legend --width 10cm $(PAPER) -o docs/flat.svg
+	$(MOLVIZ) draw samples/1a8o.pdb --style print --width 8cm $(PAPER) -o docs/print.svg
+	$(MOLVIZ) draw samples/c60.xyz --style hatch --perspective 15 --width 8cm $(PAPER) -o docs/hatch.svg
+	$(MOLVIZ) draw samples/1a1f.pdb --style line --width 8cm $(PAPER) -o docs/line.svg
+	$(MOLVIZ) hidden-lines --random 1000 --shrink --radius 0.135 $(PAPER) -o docs/gas.svg
 
 bench: $(VENV)/benched ## measure run times, sizes and peers (nothing is asserted)
 	$(BIN)/python benchmarks/draw_bench.py

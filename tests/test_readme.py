@@ -10,12 +10,14 @@ import pytest
 from click.testing import CliRunner
 
 from molviz.cli import main
+from molviz.picture.style import load_style
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = [textwrap.dedent(block) for block in re.findall(r"(?m)(?:^(?: {4}.*|)\n)+", README)]
 PYTHON = [block for block in BLOCKS if "import molviz" in block]
 SHELL = [line for block in BLOCKS for line in block.splitlines() if line.startswith("molviz ")]
+STYLES = re.findall(r"(?ms)^```toml\n(.*?)^```", README)
 OPTIONS = [word for block in BLOCKS if block.strip().startswith("--") for word in re.findall(r"--[\w-]+", block)]
 
 
@@ -35,7 +37,7 @@ def written(folder: Path) -> dict[str, bytes]:
 
 
 def test_there_are_examples() -> None:
-    assert PYTHON and len(SHELL) >= 3 and len(OPTIONS) > 15
+    assert PYTHON and STYLES and len(SHELL) >= 3 and len(OPTIONS) > 15
 
 
 def test_the_python_examples_run_twice(folder: Path) -> None:
@@ -65,3 +67,16 @@ def test_the_shell_examples_run_twice(folder: Path) -> None:
 def test_the_options_that_are_named_exist() -> None:
     help_text = CliRunner().invoke(main, ["draw", "--help"]).output
     assert not [option for option in OPTIONS if option not in help_text]
+
+
+def test_the_styles_are_styles(tmp_path: Path) -> None:
+    for text in STYLES:
+        (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
+        assert load_style(str(tmp_path / "mine.toml")) != load_style("goodsell")
+
+
+def test_pictures_exist_and_all_are_shown() -> None:
+    """`make gallery` draws what the README shows, and nothing else is kept."""
+    shown = set(re.findall(r"\]\((docs/[^)]+)\)", README))
+    assert shown == {f"docs/{path.name}" for path in (ROOT / "docs").iterdir()}
+    assert shown == set(re.findall(r"-o (docs/\S+)", (ROOT / "Makefile").read_text(encoding="utf-8")))

@@ -142,8 +142,9 @@ def load_style(name: str) -> Style:
 
     Raises InputError where it is neither, for keys that no style has and for values of the wrong kind.
     """
+    whole = _whole(name, 0)
     try:
-        return _style(_Section(_whole(name, 0)))
+        return _style(_Section(whole))
     except ValueError as wrong:
         raise InputError(f"not a style: {wrong}", name) from None
 

@@ -58,7 +58,10 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     start = offsets(np.repeat(np.arange(len(first)), count), len(first))
     owner, place = expand(np.zeros_like(count), count)
     offset = arcs.sweep[owner] * place / (count[owner] - 1)
-    behind = _behind_at(view_map, row, first, last, owner, offset)
+    # an end stands for the half sample beside it: where balls touch, the very last arc of a horizon is often too short
+    # to be seen, and has the neighbour behind it while all others have the background
+    beside = arcs.sweep[owner] * np.clip(place, 0.5, count[owner] - 1.5) / (count[owner] - 1)
+    behind = _behind_at(view_map, row, first, last, owner, beside)
     t = arcs.start[owner] + offset
     page = arcs.take(owner).at(t)
     jump = _jumps(view_map, view, sphere[first][owner], behind, page)
