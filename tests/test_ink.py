@@ -116,10 +116,10 @@ def slow_width(
 @pytest.mark.parametrize("distance", DISTANCES)
 @pytest.mark.parametrize("scale", [3.0, SCALE])
 def test_widths_follow_the_formula(distance: float | None, scale: float) -> None:
-    scene = random_spheres(4, 25, 9.0)
+    scene = random_spheres(5, 40, 8.0)
     view = file_axes(scene, distance)
     runs = horizon_runs(map_of(scene, view), view)
-    group, far = np.arange(25) % 3, np.arange(25) / 25
+    group, far = np.arange(40) % 3, np.arange(40) / 40
     found = line_widths(runs, group, far, STYLE, scale)
     thinnest = max(THINNEST, THINNEST_SHARE * STYLE.inside.at(scale))
     seen = set()
