@@ -417,6 +417,7 @@ def test_the_bar_of_a_legend_is_tiled_and_its_numbers_stand_level_with_what_they
     for text, level in ((least, bottom), (middle, (bottom + top) / 2), (greatest, top)):
         assert text.y + text.size / 3 == pytest.approx(level) and left + 12 < text.x < left + 20
     assert title.x == pytest.approx(left) and top < title.y < top + 12
+    assert title.text == "exposed area, Å²"
     assert picture.box[3] > title.y + 0.8 * title.size or height < 180
 
 
