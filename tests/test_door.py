@@ -222,6 +222,11 @@ def test_a_picture_has_no_other_formats_than_the_writers(suffix: str) -> None:
         encoded(molviz.draw(CAFFEINE)._picture, suffix)
 
 
+def test_the_usual_plotter_is_one() -> None:
+    drawing = molviz.draw(CAFFEINE)
+    assert encoded(drawing._picture, ".hpgl") == drawing.to("hpgl")
+
+
 @pytest.mark.parametrize("suffix", suffixes())
 def test_a_drawing_has_every_format(suffix: str, tmp_path: Path) -> None:
     drawing, path = molviz.draw(CAFFEINE), tmp_path / f"x{suffix}"

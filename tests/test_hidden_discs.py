@@ -12,7 +12,7 @@ from molviz.cli import main
 from molviz.errors import InputError
 from molviz.picture.disc_picture import FAR, NEAR, WIDTH, DiscLook
 from molviz.picture.page import Page
-from molviz.pipeline.hidden_discs import LABELS, hide_discs, picture_of, random_discs
+from molviz.pipeline.hidden_discs import LABELS, hide_discs, picture_of, random_discs, statistics_table
 from tests.disc_scenes import scene_of
 from tests.render import needs_ghostscript, render_ps, render_svg
 
@@ -43,6 +43,11 @@ def test_statistics_of_three_discs() -> None:
     assert (told["visible_whole"], told["visible_in_arcs"], told["hidden"]) == (1, {"1": 1}, 1)
     assert told["length_circumferences"] == pytest.approx(1 + 2 / 3)
     assert told["pairs_intersecting"] <= told["pairs_tested"] and 0 <= told["seconds"] < 10
+    lines = statistics_table(told).splitlines()
+    assert len({line.index(" = ") for line in lines}) == 1 and min(len(x) - len(x.lstrip()) for x in lines) == 2
+    for row in ("Total length of all visible arcs (circles) = 1.66667", "Partially visible with K arcs = 1: 1",
+                "Completely visible = 1", "Completely hidden = 1", "Max radius = 1"):  # fmt: skip
+        assert row in [line.strip() for line in lines]
 
 
 def test_nothing_is_no_scene() -> None:
