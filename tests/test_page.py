@@ -148,6 +148,15 @@ def test_a_line_that_leaves_a_circle_and_comes_back_to_it_begins_at_its_loose_en
     assert line.start[0] == (1.0 if forwards else 0.5)
 
 
+def test_a_closed_line_begins_where_no_arc_is_cut_in_two() -> None:
+    """Three arcs around: the first and the last are one arc of circle 7, the second is one of circle 8."""
+    origin, target, curve = np.arange(3), np.array([1, 2, 0]), np.array([7, 8, 7])
+    turn = np.array([0.5, 1.0, 0.25])
+    arcs = PlaneArcs(np.zeros((3, 2)), np.tile([1.0, 0], (3, 1)), np.tile([0, 1.0], (3, 1)), np.arange(3.0), turn)
+    line, start = merged(arcs, curve, linked(origin, target, curve, np.arange(3)))
+    assert start.tolist() == [0, 2] and sorted(np.abs(line.sweep).tolist()) == [0.75, 1.0]
+
+
 @given(st.integers(1, 8).flatmap(lambda count: st.permutations(range(count))), st.lists(st.tuples(
     st.booleans(), st.integers(0, 1)), min_size=8, max_size=8), st.booleans(), st.booleans())  # fmt: skip
 def test_arcs_that_meet_end_to_end_become_one_chain_in_whatever_order_they_are(
@@ -418,6 +427,8 @@ def test_the_bar_of_a_legend_is_tiled_and_its_numbers_stand_level_with_what_they
         assert text.y + text.size / 3 == pytest.approx(level) and left + 12 < text.x < left + 20
     assert title.x == pytest.approx(left) and top < title.y < top + 12
     assert title.text == "exposed area, Å²"
+    if balls_high == 2:  # of one ball, and a water of 1.4 Å
+        assert {least.text, middle.text, greatest.text} == {f"{4 * math.pi * 2.4**2:.4g}"}
     assert picture.box[3] > title.y + 0.8 * title.size or height < 180
 
 
