@@ -1,6 +1,7 @@
 """The command line as a user meets it."""
 
 import json
+import os
 import subprocess
 import sys
 from itertools import product
@@ -12,6 +13,10 @@ import pytest
 from click.testing import CliRunner, Result
 
 from molviz.cli import main
+from molviz.errors import InputError
+from molviz.model.spheres import Spheres
+from molviz.pipeline.info import closest_ratio
+from molviz.pipeline.outputs import save, target_of
 
 SAMPLES = Path(__file__).parent.parent / "samples"
 CAFFEINE = str(SAMPLES / "caffeine.xyz")
@@ -114,6 +119,38 @@ def test_a_pattern_names_the_outputs(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["1a8o-x.svg", "caffeine-x.svg"]
 
 
+def test_names_of_outputs_come_from_the_inputs(tmp_path: Path) -> None:
+    packed = str(SAMPLES / "c60.xyz")
+    assert run("draw", "-", "--format", "xyz", "-o", f"{tmp_path}/new/", "--to", "svg", "--quiet",
+               stdin=Path(packed).read_bytes()).exit_code == 0  # fmt: skip
+    assert [path.name for path in (tmp_path / "new").iterdir()] == ["stdin.svg"]
+    assert target_of("a/1abc.pdb.gz", f"{tmp_path}", ".svg") == f"{tmp_path}/1abc.svg"  # a folder that is there
+    assert target_of("a/1abc.pdb.gz", "b/{stem}{stem}.ps", ".svg") == "b/1abc1abc.ps"
+    assert target_of("a.gz/x.y.cif", "b/", ".svg") == "b/x.y.svg" and target_of("x", "b", ".svg") == "b"
+
+
+def test_files_have_the_usual_permissions_or_keep_theirs(tmp_path: Path) -> None:
+    before = os.umask(0o027)
+    try:
+        save(str(tmp_path / "a" / "new.svg"), b"1")
+        (tmp_path / "old.svg").touch()
+        (tmp_path / "old.svg").chmod(0o604)
+        save(str(tmp_path / "old.svg"), b"2")
+        assert os.umask(0o027) == 0o027
+    finally:
+        os.umask(before)
+    modes = [path.stat().st_mode & 0o777 for path in (tmp_path / "a" / "new.svg", tmp_path / "old.svg")]
+    assert modes == [0o640, 0o604] and (tmp_path / "old.svg").read_bytes() == b"2"
+
+
+def test_a_failure_while_writing_leaves_nothing(tmp_path: Path) -> None:
+    """A folder cannot be replaced by a file."""
+    (tmp_path / "x.svg").mkdir()
+    with pytest.raises(InputError, match="cannot be written"):
+        save(str(tmp_path / "x.svg"), b"1")
+    assert [path.name for path in tmp_path.iterdir()] == ["x.svg"] and (tmp_path / "x.svg").is_dir()
+
+
 def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
     target = tmp_path / "old.svg"
     target.write_text("old", encoding="utf-8")
@@ -159,6 +196,31 @@ def test_info_tells_the_hard_sphere_model() -> None:
     assert told["k"] == pytest.approx(1.7 / 1.2)
     assert 0.4 < told["rho"] < 1 and told["max_neighbours"] >= told["mean_neighbours"] > 4
     assert told["components"] == 1
+
+
+def test_info_has_the_fields_of_the_contract(tmp_path: Path) -> None:
+    path = tmp_path / "row.xyzr"
+    path.write_text("0 0 0 1\n1.5 0 0 1\n3 0 0 2\n20 0 0 0.5\n", encoding="ascii")
+    (told,) = json.loads(run("info", str(path), "--json").stdout)["results"]
+    assert told == {
+        "file": str(path), "format": "xyzr", "model": 1, "models": 1, "title": "row", "atoms": 4,
+        "elements": {"X": 4}, "k": 4.0, "rho": 0.75, "max_neighbours": 2, "mean_neighbours": 1.0, "components": 2,
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [[(0, 0, 0, 1)], [(0, 0, 0, 1), (0, 0, 7, 2)], [(0, 0, 0, 9), (0, 0, 20, 9), (0, 50, 0, 0.1), (0, 50, 2, 0.1)],
+     [(0, 0, 0, 0.1), (0, 0, 3, 0.1), (90, 0, 0, 9), (90, 30, 0, 9)], [(0, 0, 0, 1), (0, 0, 0, 2)],
+     [(0, 0, 0, 0.5), (0, 4, 0, 0.5), (100, 0, 0, 10), (139, 0, 0, 10)]],
+)  # fmt: skip
+def test_rho_is_the_least_distance_in_radii(rows: list[tuple[float, ...]]) -> None:
+    """Over all pairs, each in units of the larger of its radii; of one ball there is none."""
+    table = np.array(rows, dtype=float)
+    ratios = [np.linalg.norm(table[a, :3] - table[b, :3]) / max(table[a, 3], table[b, 3])
+              for a in range(len(rows)) for b in range(a)]  # fmt: skip
+    expected = pytest.approx(min(ratios)) if ratios else None
+    assert closest_ratio(Spheres(table[:, :3], table[:, 3])) == expected
 
 
 def test_a_help_text_with_an_example_for_every_command() -> None:

@@ -28,9 +28,18 @@ from molviz.model.spheres import Spheres
 from molviz.picture.options import DrawOptions
 from molviz.picture.palette import load_palette
 from molviz.pipeline.draw import DrawRequest, draw_request_from, suffixes
-from molviz.pipeline.inputs import InputOptions
-from molviz.pipeline.values import input_options_from, view_options_from
-from molviz.pipeline.views import ViewOptions
+from molviz.pipeline.inputs import InputOptions, loaded_from
+from molviz.pipeline.outputs import encoded
+from molviz.pipeline.values import (
+    input_options_from,
+    parse_background,
+    parse_chains,
+    parse_margin,
+    parse_rotations,
+    parse_width,
+    view_options_from,
+)
+from molviz.pipeline.views import ViewOptions, checked_view
 from molviz.readers import read
 
 SAMPLES = Path(__file__).parent.parent / "samples"
@@ -128,7 +137,98 @@ def test_python_and_the_command_line_draw_the_same(
     assert path.read_text(encoding="utf-8") != molviz.draw(PROTEIN).svg() or words == "--chain A --model 1"
 
 
+PARTS = """\
+HETATM    1  CA  GLY A   1       0.000   0.000   0.000  1.00 10.00           C
+HETATM    2  HA  GLY A   1       1.000   0.000   0.000  1.00 10.00           H
+HETATM    3  CA  GLY B   2       0.000   9.000   0.000  1.00 10.00           C
+HETATM    4  O   HOH B   3       0.000   0.000   9.000  1.00 10.00           O
+HETATM    5  H1  HOH A   4       9.000   9.000   0.000  1.00 10.00           H
+"""
+
+
+@pytest.mark.parametrize(
+    ("keywords", "rows"),
+    [({}, [0, 1, 2, 3, 4]), ({"no_water": True}, [0, 1, 2]), ({"no_hydrogens": True}, [0, 2, 3]),
+     ({"chain": "A"}, [0, 1, 4]), ({"chain": ["B", "A"]}, [0, 1, 2, 3, 4]), ({"chain": " B , C"}, [2, 3]),
+     ({"select": "resi 1-3"}, [0, 1, 2, 3]), ({"select": "chain A", "no_water": True}, [0, 1]),
+     ({"select": "chain A", "no_hydrogens": True, "no_water": True}, [0]), ({"chain": ""}, [0, 1, 2, 3, 4])],
+)  # fmt: skip
+def test_the_part_that_is_drawn_obeys_every_option(keywords: dict[str, Any], rows: list[int], tmp_path: Path) -> None:
+    path = tmp_path / "parts.pdb"
+    path.write_text(PARTS, encoding="ascii")
+    scene = molviz.Scene(path, **keywords)
+    assert scene.molecule.row.tolist() == rows and len(scene.spheres.radius) == len(rows)
+    drawing = molviz.draw(path, water=True, **keywords)
+    assert (drawing.atoms_read, drawing.atoms_drawn) == (5, len(rows))
+    assert len(molviz.visible(path, **keywords).area) == len(molviz.measure(path, **keywords).area) == len(rows)
+
+
+def test_what_leaves_nothing_names_the_chains_there_are(tmp_path: Path) -> None:
+    path = tmp_path / "parts.pdb"
+    path.write_text(PARTS, encoding="ascii")
+    with pytest.raises(InputError, match="no atoms are left.*A, B$"):
+        molviz.draw(path, select="resi 77")
+    with pytest.raises(InputError, match="not named$"):
+        molviz.draw(([[0, 0, 0]], [1]), no_water=True, select="chain A")
+
+
+def test_models_and_assemblies_are_those_asked_for(tmp_path: Path) -> None:
+    """The second model has two atoms; its assembly 2 has a copy 30 Å along x."""
+    head = "REMARK 350 BIOMOLECULE: {}\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n"
+    rows = "REMARK 350   BIOMT1   {0}  1.000000  0.000000  0.000000       {1:8.5f}\n" \
+           "REMARK 350   BIOMT2   {0}  0.000000  1.000000  0.000000        0.00000\n" \
+           "REMARK 350   BIOMT3   {0}  0.000000  0.000000  1.000000        0.00000\n"  # fmt: skip
+    lines = PARTS.splitlines(keepends=True)
+    models = f"MODEL        1\n{lines[0]}ENDMDL\nMODEL        2\n{lines[0]}{lines[1]}ENDMDL\n"
+    path = tmp_path / "two.pdb"
+    path.write_text(head.format(1) + rows.format(1, 0.0) + head.format(2) + rows.format(1, 0.0)
+                    + rows.format(2, 30.0) + models, encoding="ascii")  # fmt: skip
+    parts: list[tuple[dict[str, Any], list[float]]] = [
+        ({}, [0]), ({"model": 2}, [0, 1]), ({"model": "1"}, [0]), ({"assembly": "1", "model": 2}, [0, 1]),
+        ({"assembly": "2", "model": 2}, [0, 1, 30, 31]), ({"assembly": "2"}, [0, 30]),
+    ]  # fmt: skip
+    for keywords, x in parts:
+        with pytest.warns(UserWarning, match="the models differ in atoms: from 1 to 2"):
+            assert sorted(molviz.Scene(path, **keywords).molecule.position[:, 0].tolist()) == x, keywords
+    for number in (0, 3, -1, 1.5, "all", "x", ""):
+        with pytest.raises(InputError, match="model"):
+            molviz.draw(path, model=number)  # type: ignore[arg-type]
+    assert [one.model for one in loaded_from(read(path), InputOptions(model="all"))] == [1, 2]
+
+
+def test_atoms_smaller_than_a_pixel_are_those_4000_radii_apart() -> None:
+    for reach, told in ((7990.0, 0), (8010.0, 1)):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            molviz.Scene(([[0, 0, 0], [0, reach, 0]], [2.0, 1.0]))
+        assert [str(one.message).count("extend over") for one in caught] == [1] * told
+
+
 # ---- drawings
+
+
+def test_the_map_is_verified_where_that_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(*arguments: object) -> None:
+        raise InternalError("a face is open")
+
+    for stage in ("draw", "visible"):
+        monkeypatch.setattr(f"molviz.pipeline.{stage}.check_map", fails)
+    assert molviz.draw(CAFFEINE).arcs
+    seen = molviz.visible(CAFFEINE)
+    for check in (partial(molviz.draw, CAFFEINE, check=True), seen.check):
+        with pytest.raises(InternalError, match="a face is open"):
+            check()
+
+
+@pytest.mark.parametrize("suffix", ["", ".tiff", ".json", "svg"])
+def test_a_picture_has_no_other_formats_than_the_writers(suffix: str) -> None:
+    with pytest.raises(InputError, match="no format is called .*expected"):
+        encoded(molviz.draw(CAFFEINE)._picture, suffix)
+
+
+def test_the_usual_plotter_is_one() -> None:
+    drawing = molviz.draw(CAFFEINE)
+    assert encoded(drawing._pen_picture, ".hpgl") == drawing.to("hpgl")
 
 
 @pytest.mark.parametrize("suffix", suffixes())
@@ -318,6 +418,9 @@ def test_a_molecule_of_wrong_columns_is_refused_by_name(column: str, values: lis
     "view",
     [5, molviz.View(np.zeros((3, 3)), np.zeros(3)), molviz.View(np.eye(2), np.zeros(3)),
      molviz.View(np.diag([1.0, 1, -1]), np.zeros(3)), molviz.View(np.full((3, 3), np.nan), np.zeros(3)),
+     molviz.View(np.eye(3) * 1.1, np.zeros(3)), molviz.View(np.diag([2.0, 1, 1]), np.zeros(3)),
+     molviz.View(np.eye(3) + np.eye(3, k=1) / 100, np.zeros(3)), molviz.View(np.eye(3), np.zeros(3), np.inf),
+     molviz.View(np.eye(3), np.zeros(3), 0.0), molviz.View(np.eye(4), np.zeros(3)),
      molviz.View(np.eye(3), np.array([0, 0, np.inf])), molviz.View(np.eye(3), np.zeros(2)),
      molviz.View(np.eye(3), np.zeros(3), -5.0), molviz.View(np.eye(3), np.zeros(3), float("nan"))],
 )  # fmt: skip
@@ -326,6 +429,39 @@ def test_a_wrong_view_is_refused_by_name(view: Any) -> None:
     for look in (scene.map, scene.pieces, partial(molviz.visible, CAFFEINE)):
         with pytest.raises(InputError, match="^view: "):
             look(view)
+
+
+def test_views_that_turn_but_for_rounding_are_taken() -> None:
+    scene = molviz.Scene(CAFFEINE)
+    for turn in range(0, 360, 15):
+        view = scene.view.rotated("x", turn).rotated("y", turn / 2)
+        nearly = molviz.View(view.rotation * (1 + 1e-8), view.center)
+        lists = molviz.View(view.rotation.tolist(), view.center.tolist())  # type: ignore[arg-type]
+        for one in (view, nearly, lists):
+            assert checked_view(one, scene.spheres).rotation == pytest.approx(view.rotation)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("rotate", "x,"), ("rotate", "30,x"), ("rotate", ("x", 1, 2)), ("rotate", "x,1e9"), ("rotate", [("x", "a")]),
+     ("background", "#12345"), ("background", (1, 2, 3, 4)), ("background", (-1, 0, 0)), ("scale", True),
+     ("scale", "1e-7"), ("scale", 2e9), ("outline", -1e-9), ("probe", "1e10"), ("margin", "-0"), ("assembly", 5)],
+)  # fmt: skip
+def test_values_just_outside_are_refused(name: str, value: object) -> None:
+    with pytest.raises(InputError, match=f"^{name}: "):
+        molviz.draw(CAFFEINE, **{name: value})
+
+
+def test_words_and_values_mean_the_same() -> None:
+    assert parse_rotations("Z, 9") == parse_rotations(("z", 9)) == parse_rotations([(" z", "9")]) == (("z", 9.0),)
+    assert parse_rotations(["x,1", "y,2"]) == parse_rotations((("x", 1), ["y", 2])) == (("x", 1.0), ("y", 2.0))
+    assert parse_rotations([]) == () and parse_rotations([("x", 1), ("y", 2), ("z", 3)])[2] == ("z", 3.0)
+    assert parse_background("None") is parse_background(None) is None
+    assert parse_background((0, 255, 7)) == parse_background([0.0, 255, 7]) == (0, 255, 7)
+    assert parse_background("#fff") == parse_background("white") == (255, 255, 255)
+    assert parse_margin(0) == parse_margin("0") == parse_margin(0.0) == 0.0 and parse_margin("1in") == 72.0
+    assert parse_width(3) == parse_width("3pt") == 3.0
+    assert parse_chains("A, B") == parse_chains(["A", "B"]) == ("A", "B") and parse_chains(None) == ()
 
 
 # ---- what is odd

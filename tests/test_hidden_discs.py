@@ -9,9 +9,10 @@ import pytest
 from click.testing import CliRunner, Result
 
 from molviz.cli import main
-from molviz.picture.disc_picture import DiscLook
+from molviz.errors import InputError
+from molviz.picture.disc_picture import FAR, NEAR, WIDTH, DiscLook
 from molviz.picture.page import Page
-from molviz.pipeline.hidden_discs import LABELS, hide_discs, picture_of, random_discs
+from molviz.pipeline.hidden_discs import LABELS, hide_discs, picture_of, random_discs, statistics_table
 from tests.disc_scenes import scene_of
 from tests.render import needs_ghostscript, render_ps, render_svg
 
@@ -32,6 +33,56 @@ def test_statistics_add_up() -> None:
     assert answer["visible_whole"] + sum(pieces.values()) + answer["hidden"] == answer["n"] == 3000
     assert answer["visible_whole"] + sum(k * count for k, count in pieces.items()) == answer["arcs"]
     assert answer["depth"] == pytest.approx(math.pi * 3000 * answer["radius"] ** 2) == pytest.approx(10)
+
+
+def test_statistics_of_three_discs() -> None:
+    """One whole, one with a sixth of its perimeter behind the first's edge on either side hidden, one hidden."""
+    scene = hide_discs(scene_of([(0, 0, 0, 1), (1, 0, 1, 1), (0.2, 0, 2, 0.5)]))
+    told = scene.statistics()
+    assert (told["n"], told["radius"], told["arcs"], scene.visible()) == (3, 1.0, 2, 2)
+    assert (told["visible_whole"], told["visible_in_arcs"], told["hidden"]) == (1, {"1": 1}, 1)
+    assert told["length_circumferences"] == pytest.approx(1 + 2 / 3)
+    assert told["pairs_intersecting"] <= told["pairs_tested"] and 0 <= told["seconds"] < 10
+    lines = statistics_table(told).splitlines()
+    assert len({line.index(" = ") for line in lines}) == 1 and min(len(x) - len(x.lstrip()) for x in lines) == 2
+    for row in ("Total length of all visible arcs (circles) = 1.66667", "Partially visible with K arcs = 1: 1",
+                "Completely visible = 1", "Completely hidden = 1", "Max radius = 1"):  # fmt: skip
+        assert row in [line.strip() for line in lines]
+
+
+def test_nothing_is_no_scene() -> None:
+    with pytest.raises(InputError, match="no spheres"):
+        hide_discs(scene_of([]))
+
+
+def test_discs_of_a_molecule_are_drawn_in_parallel_projection_only(tmp_path: Path) -> None:
+    words = [str(Path(__file__).parent.parent / "samples" / "caffeine.xyz"), "--as", "discs"]
+    words += ["-o", str(tmp_path / "x.json")]
+    refused = run(*words, "--perspective", "50")
+    assert refused.exit_code == 1 and "expected no --perspective" in refused.stderr
+    done = run(*words)
+    assert done.exit_code == 0, done.output
+    answer = json.loads((tmp_path / "x.json").read_text())
+    seen = len({arc[0] for arc in answer["arcs"]})
+    assert len(answer["circles"]) == 24 and f"24 spheres, {seen} with visible lines" in done.stderr
+
+
+def test_a_picture_of_discs_is_a_box_around_them_from_light_to_dark() -> None:
+    """4 wide and 3 high; the front disc light, the rear one dark, the line half outside."""
+    scene = hide_discs(scene_of([(1, 1, 0, 1), (3, 2, 1, 1), (3.2, 2.2, 2, 0.5)]))
+    picture = picture_of(scene, DiscLook(outline=2.0, background=(1, 2, 3)), fill=True)
+    fills, lines = picture.layers
+    assert [layer.name for layer in picture.layers] == ["visible regions", "visible arcs"]
+    assert [mark.id for mark in fills.mark] == ["f0", "f1"] and [mark.id for mark in lines.mark] == ["s0", "s1"]
+    assert list(fills.paint) == [NEAR, tuple(round((a + b) / 2) for a, b in zip(NEAR, FAR, strict=True))]
+    x0, y0, x1, y1 = picture.box
+    assert (x1 - x0, y1 - y0) == pytest.approx((WIDTH + 2, 0.75 * WIDTH + 2))
+    assert (x0 + x1, y0 + y1) == pytest.approx((picture.width, picture.height))
+    assert (lines.width, lines.color, picture.background) == (2.0, (0, 0, 0), (1, 2, 3))
+    assert (picture.title, picture.description) == ("", "")
+    assert lines.paths.shape_start.tolist() == [0, 1, 2] and lines.paths.loop_start.tolist() == [0, 1, 2]
+    assert np.allclose(np.diff(lines.paths.arcs.c, axis=0), [[WIDTH / 2, WIDTH / 4]])
+    assert [layer.name for layer in picture_of(scene, DiscLook(outline=0.0)).layers] == []
 
 
 def test_without_an_output_the_table_is_printed() -> None:

@@ -12,6 +12,9 @@ from click.testing import CliRunner, Result
 from molviz.cli.measure import measure_command
 from molviz.model.molecule import Molecule
 from molviz.pipeline.door import measure
+from molviz.pipeline.inputs import InputOptions, loaded_from
+from molviz.pipeline.measure import PER, measurement
+from molviz.pipeline.subject import reading_of
 
 LINE = "ATOM  {:5d}  {:<3s} {:3s} {:1s}{:4d}    {:8.3f}{:8.3f}{:8.3f}  1.00 10.00          {:>2s}\n"
 ATOMS = [
@@ -63,6 +66,24 @@ def test_names_without_residues(tmp_path: Path) -> None:
     path.write_text("2\n\nC 0 0 0\nO 1.2 0 0\n", encoding="ascii")
     assert [row["id"] for row in results(str(path), "--per", "atom")[0]["per"]] == ["C1", "O2"]
     assert [row["id"] for row in results(str(path), "--per", "chain")[0]["per"]] == ["-"]
+
+
+def test_a_residue_without_a_number_keeps_its_name() -> None:
+    columns = {"residue_name": ["LIG", "", ""], "residue": ["", "5", ""], "atom_name": ["CA", "CB", "CC"]}
+    molecule = Molecule.of("odd", np.diag([3.0, 6, 9]), ["C", "C", "O"], chain=["A", "", "A"], **columns)
+    (loaded,) = loaded_from(reading_of(molecule), InputOptions())
+    names = {per: [part.id for part in measurement(loaded, per=per).parts] for per in PER}
+    assert names == {"atom": ["A/LIG/CA", "-/5/CB", "O3"], "residue": ["A/LIG", "-/5", "A/"], "chain": ["A", "-"]}
+    assert measurement(loaded).parts == () and measurement(loaded, "element C", "atom").atoms == 2
+
+
+def test_atoms_of_one_name_have_rows_of_their_own_and_residues_one() -> None:
+    twice = Molecule.of("twice", [[0, 0, 0], [9, 0, 0]], ["C", "C"], radius=[1, 2], residue_name=["X", "X"],
+                        residue=["1", "1"], atom_name=["C", "C"])  # fmt: skip
+    (loaded,) = loaded_from(reading_of(twice), InputOptions())
+    areas = {per: [part.area for part in measurement(loaded, per=per).parts] for per in PER}
+    assert areas["atom"] == pytest.approx([4 * np.pi, 16 * np.pi])
+    assert areas["residue"] == areas["chain"] == pytest.approx([20 * np.pi])
 
 
 def test_a_selection_is_measured_alone_and_among_the_rest(peptide: str) -> None:

@@ -9,7 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from molviz.curves import PlaneArcs
-from molviz.picture.page import Page
+from molviz.picture.chains import linked, merged
+from molviz.picture.coloring import by_index, on_ramp
+from molviz.picture.colors import parse_color
+from molviz.picture.page import Page, parse_length
 from molviz.picture.palette import load_palette
 from molviz.picture.picture import SPREAD, FillLayer, Picture, StackedLayer, StrokeLayer, TextLayer
 from molviz.picture.style import load_style
@@ -133,6 +136,52 @@ def test_an_outline_past_a_junction_is_one_arc() -> None:
     assert len({tuple(row) for row in np.round(arcs.c, 3).tolist()}) == len(arcs.c) == 2  # each ball's is one arc
 
 
+def test_a_line_that_leaves_a_circle_and_comes_back_to_it_begins_at_its_loose_end() -> None:
+    """Of four arcs, in two pieces on circle 7, one on 8 and one on 7 again, only the first two become one."""
+    origin, curve = np.array([3, 0, 2, 1]), np.array([7, 7, 8, 7])  # from 0 by 1, 2 and 3 to 4
+    turn = np.array([0.5, 0.25, 1.0, 0.75])
+    arcs = PlaneArcs(np.zeros((4, 2)), np.tile([1.0, 0], (4, 1)), np.tile([0, 1.0], (4, 1)), np.arange(4.0), turn)
+    chains = linked(origin, origin + 1, curve, np.arange(4))
+    assert chains.closed.tolist() == [False] and (chains.half_edge >> 1).tolist() in ([1, 3, 2, 0], [0, 2, 3, 1])
+    line, start = merged(arcs, curve, chains)
+    forwards = chains.half_edge[0] == 2
+    assert start.tolist() == [0, 3] and line.sweep.tolist() == ([1, 1, 0.5] if forwards else [-0.5, -1, -1])
+    assert line.start[0] == (1.0 if forwards else 0.5)
+
+
+def test_a_closed_line_begins_where_no_arc_is_cut_in_two() -> None:
+    """Three arcs around: the first and the last are one arc of circle 7, the second is one of circle 8."""
+    origin, target, curve = np.arange(3), np.array([1, 2, 0]), np.array([7, 8, 7])
+    turn = np.array([0.5, 1.0, 0.25])
+    arcs = PlaneArcs(np.zeros((3, 2)), np.tile([1.0, 0], (3, 1)), np.tile([0, 1.0], (3, 1)), np.arange(3.0), turn)
+    line, start = merged(arcs, curve, linked(origin, target, curve, np.arange(3)))
+    assert start.tolist() == [0, 2] and sorted(np.abs(line.sweep).tolist()) == [0.75, 1.0]
+
+
+@given(st.integers(1, 8).flatmap(lambda count: st.permutations(range(count))), st.lists(st.tuples(
+    st.booleans(), st.integers(0, 1)), min_size=8, max_size=8), st.booleans(), st.booleans())  # fmt: skip
+def test_arcs_that_meet_end_to_end_become_one_chain_in_whatever_order_they_are(
+    order: list[int], ways: list[tuple[bool, int]], closed: bool, touched: bool
+) -> None:
+    """Arc ``order[k]`` lies between places k and k + 1, in either direction; a loose end of another curve may touch."""
+    count = len(order)
+    back, curve = np.array(ways[:count]).T
+    first, last = np.empty(count, dtype=np.int64), np.empty(count, dtype=np.int64)
+    first[order], last[order] = np.arange(count), (np.arange(count) + 1) % (count if closed else count + 1)
+    origin, target = np.where(back, last, first), np.where(back, first, last)
+    lines = np.zeros(count, dtype=np.int64) if touched else curve
+    if touched:  # by an arc of another curve that ends in the middle of the path
+        origin, target, lines = np.append(origin, 99), np.append(target, 1), np.append(lines, 5)
+    chains = linked(origin, target, lines, np.arange(len(origin)))
+    lone = touched and (count > 1 or closed)
+    assert len(chains.closed) == 1 + lone and sorted(chains.half_edge >> 1) == list(range(len(origin)))
+    assert chains.closed.sum() == closed
+    begin = np.where(chains.half_edge & 1, target[chains.half_edge >> 1], origin[chains.half_edge >> 1])
+    end = np.where(chains.half_edge & 1, origin[chains.half_edge >> 1], target[chains.half_edge >> 1])
+    for a, b, ring in zip(chains.start[:-1], chains.start[1:], chains.closed, strict=True):
+        assert end[a : b - 1].tolist() == begin[a + 1 : b].tolist() and (not ring or end[b - 1] == begin[a])
+
+
 def test_displaced_copies_of_one_outline_are_not_drawn() -> None:
     """A crescent of two equal balls is 2 d / π wide in the mean when one is d beside the other."""
     for beside, shown in ((0.0, 1), (0.004, 1), (0.009, 2), (0.05, 2)):
@@ -191,6 +240,30 @@ def test_an_unknown_element_and_a_missing_number_have_the_unknown_colour() -> No
     assert page(ONE, color_by="bfactor").layers[0].paint == [STYLE.colors.unknown]
 
 
+def test_numbers_that_are_known_are_coloured_among_those_that_are_known() -> None:
+    ramp, unknown = STYLE.colors.ramp, STYLE.colors.unknown
+    middle = ramp[len(ramp) // 2]
+    assert len(ramp) % 2
+    colors = on_ramp(np.array([20.0, np.nan, 10.0, 15.0]), ramp, unknown)
+    assert colors == [ramp[-1], unknown, ramp[0], middle]
+    assert on_ramp(np.full(4, 7.0), ramp, unknown) == [ramp[0]] * 4
+
+
+def test_the_colour_of_an_index_is_that_number_in_base_256() -> None:
+    count = 66_000
+    colors = by_index(count)
+    assert np.array_equal(colors @ [256**2, 256, 1], np.arange(1, count + 1)) and colors.max() == 255
+
+
+def test_colours_are_names_or_digits() -> None:
+    names = {"white": (255, 255, 255), "BLACK": (0, 0, 0), "grey": (128, 128, 128), "gray": (128, 128, 128)}
+    for text, color in {**names, "#0af": (0, 170, 255), "#12aBf0": (18, 171, 240)}.items():
+        assert parse_color(text) == color, text
+    for text in ("0af", "12abf0", "#", "#0", "#0afa", "#12abf", "#12abf0f", "#12abg0", "pinkish", ""):
+        with pytest.raises(ValueError):
+            parse_color(text)
+
+
 def test_shapes_are_grouped_by_chain_and_residue_in_order_of_appearance() -> None:
     marks = page(MIXED).layers[0].mark
     assert [mark.id for mark in marks] == ["B_CYS_1_N", "B_CYS_1_S", "B_ALA_2_O", "A_GLY_1_C", "A_GLY_1_Fe"]
@@ -220,6 +293,8 @@ def test_balls_are_called_by_their_numbers() -> None:
 def test_a_chain_without_a_name_is_a_dash() -> None:
     (mark,) = page(residues((" ", "HOH", "7", "O", 0.0, 1.0))).layers[0].mark
     assert mark.groups[0][0] == "-" and mark.groups[1] == ("HOH 7", "residue HOH")
+    (stack,) = page(residues((" ", "HOH", "7", "O", 0.0, 1.0)), "painter").layers
+    assert stack.fills.mark[0].classes == ("O", "HOH", "chain")
 
 
 def test_a_page_is_a_whole_number_of_points_and_the_box_holds_the_lines() -> None:
@@ -229,6 +304,20 @@ def test_a_page_is_a_whole_number_of_points_and_the_box_holds_the_lines() -> Non
     assert picture.box == pytest.approx((44.5 - 40.425, 44.5 - 40.425, 44.5 + 40.425, 44.5 + 40.425))
     arc = named(picture)["silhouette"].paths.arcs
     assert arc.c[0] == pytest.approx([44.5, 44.5], abs=0.01) and arc.major() == pytest.approx([40], rel=1e-3)
+
+
+@pytest.mark.parametrize("method", ["visible", "painter"])
+@pytest.mark.parametrize(("outline", "crease", "half"), [(3.0, 0.0, 1.5), (0.0, 3.0, 1.5), (0.0, 0.0, SPREAD / 2)])
+def test_the_box_holds_half_the_widest_line_around_all_images(
+    method: str, outline: float, crease: float, half: float
+) -> None:
+    """3 Å wide and 2 Å high at 10 points per Å; nothing is wider than the box, and the page is margin and box."""
+    picture = page(FUSED, method, page=Page(scale=10.0, margin=2.0), outline=outline, crease=crease)
+    x0, y0, x1, y1 = picture.box
+    assert (x1 - x0, y1 - y0) == pytest.approx((30 + 2 * half, 20 + 2 * half))
+    assert (x0 + x1, y0 + y1) == pytest.approx((picture.width, picture.height))
+    line = max(outline, crease)
+    assert (picture.width, picture.height) == (math.ceil(34 + line), math.ceil(24 + line))
 
 
 def test_the_box_of_a_drawing_without_lines_ends_where_the_fills_do() -> None:
@@ -246,6 +335,8 @@ def test_the_box_of_a_drawing_without_lines_ends_where_the_fills_do() -> None:
         (Page(scale=10.0, margin=0.0), 10, (21, 21)),
         (Page("a4"), (210 * 72 / 25.4 - 2 * 36.425) / 2, (210 * 72 / 25.4, 297 * 72 / 25.4)),
         (Page("letter", margin=10.0, scale=5.0), 5, (612, 792)),
+        (Page("letter"), (612 - 2 * 36.425) / 2, (612, 792)),
+        (Page(), SCALE, (89, 89)),
     ],
 )
 def test_a_drawing_lies_in_the_middle_of_its_page(wanted: Page, scale: float, size: tuple[float, float]) -> None:
@@ -253,6 +344,26 @@ def test_a_drawing_lies_in_the_middle_of_its_page(wanted: Page, scale: float, si
     arc = named(picture)["silhouette"].paths.arcs
     assert (picture.width, picture.height) == pytest.approx(size)
     assert arc.c[0] == pytest.approx(np.array(size) / 2, abs=0.01) and arc.major()[0] == pytest.approx(scale, rel=1e-3)
+
+
+def test_a_large_drawing_is_fourteen_centimetres_long() -> None:
+    picture = page(balls((0, -9, 0, 1), (0, 9, 0, 1)), page=Page(margin=0.0), outline=0.0)
+    assert (picture.width, picture.height) == (math.ceil(14 / 2.54 * 7.2), math.ceil(14 / 2.54 * 72))
+
+
+@pytest.mark.parametrize(
+    ("text", "points"),
+    [("2.54cm", 72), ("25.4mm", 72), ("1in", 72), ("96px", 72), ("72pt", 72), ("72", 72), (".5in", 36), ("7", 7),
+     ("999999", 999_999)],
+)  # fmt: skip
+def test_lengths_are_in_points(text: str, points: float) -> None:
+    assert parse_length(text) == pytest.approx(points, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", ["", "cm", "x", "3 feet", "-1", "0", "0mm", "nan", "inf", "1e6", "40e3cm"])
+def test_what_is_no_length_of_a_page_is_refused(text: str) -> None:
+    with pytest.raises(ValueError, match="is not a length"):
+        parse_length(text)
 
 
 def test_a_page_is_as_large_as_all_balls_hidden_ones_too() -> None:

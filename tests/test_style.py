@@ -43,3 +43,16 @@ def test_functions_are_short() -> None:
 def test_public_functions_say_what_they_do() -> None:
     found = [(path, node) for path, tree in TREES.items() for node in public(tree.body)]
     assert [f"{path.name}:{node.lineno} {node.name}" for path, node in found if not ast.get_docstring(node)] == []
+
+
+def dataclasses_of(tree: ast.Module) -> Iterator[tuple[ast.ClassDef, ast.expr]]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ClassDef):
+            yield from ((node, one) for one in node.decorator_list if "dataclass" in ast.unparse(one))
+
+
+def test_values_do_not_change() -> None:
+    """What is handed on from stage to stage is frozen, so that no stage changes what another holds."""
+    found = [(path, node, one) for path, tree in TREES.items() for node, one in dataclasses_of(tree)]
+    assert len(found) > 15
+    assert [f"{path.name}: {node.name}" for path, node, one in found if "frozen=True" not in ast.unparse(one)] == []
