@@ -20,12 +20,14 @@ if TYPE_CHECKING:
     from molviz.pipeline.door import draw, measure, visible
     from molviz.pipeline.draw import Drawing
     from molviz.pipeline.scene import Scene
+    from molviz.pipeline.sets import DrawingSet
     from molviz.pipeline.visible import Visible
     from molviz.readers import Reading, read
     from molviz.visibility.view import View
 
 _HOMES = {  # imported when first used: start-up time counts
     "Drawing": "molviz.pipeline.draw",
+    "DrawingSet": "molviz.pipeline.sets",
     "InputError": "molviz.errors",
     "InternalError": "molviz.errors",
     "Measure": "molviz.geometry.measure",
@@ -40,8 +42,8 @@ _HOMES = {  # imported when first used: start-up time counts
     "visible": "molviz.pipeline.door",
 }
 __all__ = [
-    "Drawing", "InputError", "InternalError", "Measure", "Molecule", "Reading", "Scene", "View", "Visible",
-    "draw", "measure", "read", "visible",
+    "Drawing", "DrawingSet", "InputError", "InternalError", "Measure", "Molecule", "Reading", "Scene", "View",
+    "Visible", "draw", "measure", "read", "visible",
 ]  # fmt: skip
 
 

@@ -42,7 +42,7 @@ def beside_boundaries(
     drawing: Drawing, names: np.ndarray, low: np.ndarray, pixel: float, shape: tuple[int, int]
 ) -> np.ndarray:
     """Pixels near exact boundaries, which may run between two pixel centres: a sliver that a z-buffer does not see."""
-    seen, of = drawing._seen, np.append(names[drawing._atom], -1)
+    seen, of = drawing._seen, np.append(names[drawing.subject.atom], -1)
     arcs = seen.arcs.take(np.flatnonzero(of[seen.left] != of[seen.right]))
     count = np.ceil(np.abs(arcs.sweep) * arcs.major() / pixel * 3).astype(int) + 2
     owner = np.repeat(np.arange(len(count)), count)

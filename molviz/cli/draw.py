@@ -2,6 +2,7 @@
 
 import shlex
 import time
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path, PurePath
 from typing import Any
@@ -14,16 +15,18 @@ from molviz.cli.options import Parsed, applied, eye_options, input_options, load
 from molviz.cli.progress import Progress
 from molviz.picture.palette import PALETTES
 from molviz.picture.style import STYLES
-from molviz.pipeline.draw import Drawing, DrawRequest, draw_request_from, drawing_of, suffixes
-from molviz.pipeline.inputs import InputOptions, only_model
+from molviz.pipeline.draw import Drawing, DrawRequest, draw_request_from, suffixes
+from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.outputs import save, target_of
-from molviz.pipeline.values import input_options_from, parse_scale_bar, view_options_from
+from molviz.pipeline.sets import ONE_EACH, DrawingSet, SetOptions, drawn, holds_set, set_options_from
+from molviz.pipeline.values import input_options_from, parse_count, parse_scale_bar, view_options_from
 from molviz.pipeline.views import ViewOptions
 
 PLACES = ("-o", "--output", "--to")  # options that say where a result goes
 STAGES = 3  # reading, what is seen, writing
 
 SCALE_BAR = Parsed("ångström", parse_scale_bar)
+COUNT = Parsed("number", parse_count)
 
 output_options = applied(
     click.option("-o", "--output", metavar="FILE", help="Its suffix is the format; many: a folder or {stem}."),
@@ -43,6 +46,8 @@ drawing_options = applied(
     shared("legend", help="What the colours mean."),
     shared("water", help="Draw water, which is left out otherwise if there is anything else."),
     eye_options,
+    shared("turntable", type=COUNT, metavar="N", help="N views about the y axis: {n} in FILE, pages, animation."),
+    shared("stereo", help="Two views beside each other, for eyes that look straight ahead or that cross."),
     page_options,
 )
 plotter_options = applied(
@@ -66,19 +71,23 @@ def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
       molviz draw caffeine.xyz -o caffeine.svg
       molviz draw 4hhb.pdb --color 'resn HEM=crimson' --label 'resn HEM' -o 4hhb.ps
       molviz draw *.cif -o 'pictures/{stem}.pdf'
+      molviz draw 4hhb.pdb --turntable 36 -o spin.svg
+      molviz draw nmr.cif --model all -o 'frames/{n}.svg'
     """
     run_drawings(inputs, options)
 
 
 def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     """Draw every input with the options of ``draw``."""
-    look = draw_request_from(options)
+    look, together = draw_request_from(options), set_options_from(options)
     wanted, eye = input_options_from(options), view_options_from(options)
     suffix, output = suffix_of(options["output"], options["to"]), options["output"] or "-"
     refuse_shared_targets(inputs, output, suffix)
+    if together.many and not holds_set(output, suffix):
+        raise click.UsageError(f"{suffix} holds one picture; {ONE_EACH}")
 
     def one(source: str) -> None:
-        _draw_one(source, target_of(source, output, suffix), suffix, wanted, look, eye, options)
+        _draw_one(source, target_of(source, output, suffix), suffix, wanted, look, eye, together, options)
 
     for_each(inputs, one)
 
@@ -109,28 +118,40 @@ def _draw_one(
     wanted: InputOptions,
     look: DrawRequest,
     eye: ViewOptions,
+    together: SetOptions,
     options: dict[str, Any],
 ) -> None:
     began, progress = time.monotonic(), Progress(STAGES)
     progress("reading")
-    one = only_model(load_and_warn(source, wanted, options["quiet"], options["strict"]))
+    models, size = load_and_warn(source, wanted, options["quiet"], options["strict"]), 0
     try:
         progress("what is seen")
         described = replace(look, description=drawn_by(source))
-        drawing = drawing_of(one, described, eye, options["method"], options["check"])
+        drawing = drawn(models, described, eye, together, options["method"], options["check"])
         warn(drawing.notes, options["quiet"], options["strict"])
         progress("writing")
-        data = drawing.to(suffix, options["plotter"], options["paper"])
+        for path, data in files_of(drawing, target, suffix, options["plotter"], options["paper"]):
+            save(path, data)
+            size += len(data)
     finally:
         progress.close()
-    save(target, data)
     if not options["quiet"]:
-        click.echo(_summary(source, target, drawing, len(data), time.monotonic() - began), err=True)
+        click.echo(_summary(source, target, drawing, size, time.monotonic() - began), err=True)
 
 
-def _summary(source: str, target: str, drawing: Drawing, size: int, seconds: float) -> str:
+def files_of(
+    drawing: Drawing | DrawingSet, target: str, suffix: str, plotter: str, paper: str
+) -> Iterable[tuple[str, bytes]]:
+    """Return the name and the content of each file that is to be written."""
+    if isinstance(drawing, DrawingSet):
+        return drawing.files(target, suffix, plotter, paper)
+    return [(target, drawing.to(suffix, plotter, paper))]
+
+
+def _summary(source: str, target: str, drawing: Drawing | DrawingSet, size: int, seconds: float) -> str:
+    pictures = f"{len(drawing)} pictures, " if isinstance(drawing, DrawingSet) else ""
     return (
-        f"{source} -> {target}: {drawing.atoms_read} atoms read, {drawing.atoms_drawn} drawn, "
+        f"{source} -> {target}: {pictures}{drawing.atoms_read} atoms read, {drawing.atoms_drawn} drawn, "
         f"{drawing.visible} visible, {drawing.arcs} arcs, {size} bytes, {seconds:.2f} s"
     )
 

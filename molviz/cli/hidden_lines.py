@@ -75,6 +75,9 @@ def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
         raise click.UsageError(f"no fill {options['fill']!r}; expected flat or none")
     if sum([bool(inputs), options["count"] is not None, options["text"] is not None]) != 1:
         raise click.UsageError("nothing to draw, or two things; expected INPUT, --random or --text")
+    in_sets = options["turntable"] is not None or options["stereo"] is not None
+    if in_sets and (not inputs or options["kind"] == "discs"):
+        raise click.UsageError("discs lie flat; expected --turntable and --stereo with fused spheres only")
     if options["style"] == "auto":
         options["style"] = "flat"
     if not inputs:

@@ -74,7 +74,7 @@ def applied(*options: Decorator) -> Decorator:
 
 input_options = applied(
     click.option(
-        "--model", "--frame", "model", type=str, default=USUAL["model"], show_default=True, help="Model or frame."
+        "--model", "--frame", "model", type=str, default=USUAL["model"], show_default=True, help="Number; A-B or all."
     ),
     shared("assembly", metavar="ID", help="Biological assembly, from the file's own operators."),
     shared("select", metavar="EXPR", help="Keep part of it, e.g. 'chain A and not water'."),

@@ -20,9 +20,7 @@ def legend_of(subject: Subject, options: DrawOptions, fill: Ints) -> Ramp | Swat
     """Return what explains the colours: ``fill`` (n, 3) are those of the atoms, before fog."""
     scheme = str(options.color_by)
     if scheme in CONTINUOUS:
-        known = subject.values[np.isfinite(subject.values)]
-        least, greatest = (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
-        return Ramp(CONTINUOUS[scheme], least, greatest, options.chosen_style().colors.ramp)
+        return Ramp(CONTINUOUS[scheme], *subject.bounds, options.chosen_style().colors.ramp)
     painted = np.zeros(len(subject.molecule), dtype=bool)
     for one in subject.painted:
         painted |= one.atoms

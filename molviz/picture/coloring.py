@@ -32,6 +32,7 @@ class ColorSubject(NamedTuple):
     molecule: Molecule
     entities: Entities
     values: Floats  # (n,) NaN unless the scheme is continuous
+    bounds: tuple[float, float]  # the values at the ends of the ramp
 
 
 class AtomColors(NamedTuple):
@@ -60,7 +61,7 @@ def atom_colors(scheme: str, subject: ColorSubject, style: Style, palette: Palet
     if scheme == "index":
         fill = by_index(len(molecule))
     elif scheme in CONTINUOUS:
-        fill = np.array(on_ramp(subject.values, style.colors.ramp, style.colors.unknown))
+        fill = np.array(on_ramp(subject.values, style.colors.ramp, style.colors.unknown, subject.bounds))
     elif scheme == "chain":
         fill = chain_colors(molecule.chain, palette)
     else:
@@ -120,10 +121,15 @@ def order_of_appearance(names: Strings) -> dict[str, int]:
     return {name: number for number, name in enumerate(dict.fromkeys(names.tolist()))}
 
 
-def on_ramp(values: Floats, ramp: Sequence[Color], unknown: Color) -> list[Color]:
-    """Return the colours of values between their least and greatest, linear between the ramp's; NaN is unknown."""
+def on_ramp(
+    values: Floats, ramp: Sequence[Color], unknown: Color, bounds: tuple[float, float] | None = None
+) -> list[Color]:
+    """Return the colours of values between the bounds, or their least and greatest, linear between the ramp's.
+
+    NaN is unknown.
+    """
     known = np.isfinite(values)
-    low, high = (values[known].min(), values[known].max()) if known.any() else (0.0, 1.0)
+    low, high = bounds or ((values[known].min(), values[known].max()) if known.any() else (0.0, 1.0))
     place = np.where(known, (values - low) / max(high - low, np.finfo(float).tiny), 0.0) * (len(ramp) - 1)
     stops = np.array(ramp, dtype=float)
     channels = [np.interp(place, np.arange(len(stops)), stops[:, channel]) for channel in range(3)]

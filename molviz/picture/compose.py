@@ -20,6 +20,7 @@ from molviz.picture.looks import (
     NEARER_BY,
     Looks,
     borders,
+    depths,
     distances,
     fogged,
     groups,
@@ -28,7 +29,7 @@ from molviz.picture.looks import (
 )
 from molviz.picture.marks import marks, region_mark
 from molviz.picture.oklab import lightness, mix
-from molviz.picture.options import DrawOptions, Subject
+from molviz.picture.options import Alike, DrawOptions, Subject
 from molviz.picture.picture import (
     SPREAD,
     Color,
@@ -112,18 +113,22 @@ class MapComposer:
     @cached_property
     def looks(self) -> Looks:
         """The colours of each sphere."""
-        tint = self.tints() if self.options.color_by == "entity" else self.no_tints
+        tint = self.tints if self.options.color_by == "entity" else self.no_tints
         colors = self.subject.colors(self.options, tint).take(self.subject.atom)
         group = groups(self.subject.molecule, self.subject.entities)[self.subject.atom]
         if self.options.is_mask:
             return Looks(*colors, group, np.zeros(len(group)))
-        far = distances(self.map, self.view, self.seen, NEARER_BY)
+        surfaces, centers = self.subject.alike.depth or depths(self.map, self.view, self.seen)
+        far = distances(self.map, self.view, surfaces, NEARER_BY)
         fill = fogged(colors.fill, far, self.style.fog, self.haze)
-        return Looks(fill, colors.ink, colors.shade, group, distances(self.map, self.view, self.seen))
+        return Looks(fill, colors.ink, colors.shade, group, distances(self.map, self.view, centers))
 
+    @cached_property
     def tints(self) -> Ints:
-        """Return the tints of polymer chains, so that copies of an entity that touch on the page differ."""
-        entities = self.subject.entities
+        """The tints of polymer chains: copies of an entity that touch on the page differ, or else the set's."""
+        entities, kept = self.subject.entities, self.subject.alike.tint
+        if kept is not None:
+            return np.array([kept.get(chain, 0) for chain in entities.chain.tolist()], dtype=np.int64)
         polymer = entities.polymer[self.subject.atom]
         near, known = nearness(self.map, self.view), polymer >= 0
         count = len(entities.chain)
@@ -278,6 +283,16 @@ def picture_of_map(view_map: VisibilityMap, view: View, subject: Subject, option
     return _picture(subject, options, composer.furnished, composer.layers())
 
 
+def alike_with(seen: VisibilityMap | Pieces, view: View, subject: Subject, options: DrawOptions) -> Alike:
+    """Return what a picture would share with others of its set, if they were all like it."""
+    if isinstance(seen, Pieces):
+        return Alike(_around_pieces(subject, options).free, values=subject.bounds)
+    composer = MapComposer(seen, view, subject, options)
+    tints = composer.tints.tolist() if options.color_by == "entity" else composer.no_tints.tolist()
+    tint = dict(zip(subject.entities.chain.tolist(), tints, strict=True))
+    return Alike(composer.furnished.free, depths(seen, view, composer.seen), tint, subject.bounds)
+
+
 def colors_of(rows: Ints) -> list[Color]:
     """Return rows (m, 3) of sRGB as colours."""
     return [(r, g, b) for r, g, b in rows.tolist()]
@@ -297,8 +312,7 @@ def _file_order(molecule: Molecule) -> Ints:
 
 def picture_of_pieces(pieces: Pieces, subject: Subject, options: DrawOptions) -> Picture:
     """Return the drawing of painter's pieces, back to front, each with the strokes of its own edges; fills are flat."""
-    fill = subject.colors(options, np.zeros(len(subject.entities.chain), dtype=np.int64)).fill
-    around = furnished(subject, options, legend_of(subject, options, fill) if options.legend else None)
+    fill, around = _plain_fill(subject, options), _around_pieces(subject, options)
     placement, widths = around.placement, widths_of(options, around.placement.scale)
     arcs, is_crease = pieces.arcs.moved(placement.scale, placement.shift), pieces.is_crease()
     rank = np.full(len(subject.atom), -1)
@@ -316,6 +330,15 @@ def picture_of_pieces(pieces: Pieces, subject: Subject, options: DrawOptions) ->
         if width > 0
     ]
     return _picture(subject, options, around, [StackedLayer("atoms", fills, strokes)])
+
+
+def _plain_fill(subject: Subject, options: DrawOptions) -> Ints:
+    return subject.colors(options, np.zeros(len(subject.entities.chain), dtype=np.int64)).fill
+
+
+def _around_pieces(subject: Subject, options: DrawOptions) -> Furnished:
+    legend = legend_of(subject, options, _plain_fill(subject, options)) if options.legend else None
+    return furnished(subject, options, legend)
 
 
 def _fills_of_pieces(paths: Paths, fill: Ints, sphere: Ints, subject: Subject, options: DrawOptions) -> FillLayer:
@@ -355,7 +378,7 @@ def furnished(
     line = max(line if options.outline is None else options.outline, options.crease or 0.0)
     halo = options.background or (255, 255, 255)
     furniture = Furniture(options.title, options.scale_bar, legend, labels, discs, style.lines.color, halo)
-    return furnish(options.page, subject.low, subject.high, line / 2, furniture)
+    return furnish(options.page, subject.low, subject.high, line / 2, furniture, subject.alike.free)
 
 
 def widths_of(options: DrawOptions, scale: float) -> tuple[float, float]:

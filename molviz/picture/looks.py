@@ -10,6 +10,7 @@ from molviz.model.molecule import Molecule
 from molviz.picture.coloring import CARBON_TONE
 from molviz.picture.ink import smooth_step
 from molviz.picture.oklab import mix
+from molviz.picture.options import Depth
 from molviz.picture.picture import Color
 from molviz.picture.style import Fog
 from molviz.visibility.eye import projection_of
@@ -34,10 +35,17 @@ def nearness(view_map: VisibilityMap, view: View) -> Floats:
     return projection_of(view).nearness(view_map.spheres.center)
 
 
-def distances(view_map: VisibilityMap, view: View, seen: Ints, nearer_by: float = 0.0) -> Floats:
-    """Return how far spheres (s,) are, 0 for the nearest and 1 for the farthest of those ``seen``."""
+def depths(view_map: VisibilityMap, view: View, seen: Ints) -> tuple[Depth, Depth]:
+    """Return between which nearnesses the surfaces of the spheres ``seen`` lie, and between which their centres."""
+    center = nearness(view_map, view)[seen]
+    surface = center + NEARER_BY * view_map.spheres.radius[seen]
+    return (float(surface.min()), float(surface.max())), (float(center.min()), float(center.max()))
+
+
+def distances(view_map: VisibilityMap, view: View, depth: Depth, nearer_by: float = 0.0) -> Floats:
+    """Return how far spheres (s,) are, 0 for the nearest and 1 for the farthest nearness of ``depth``."""
     near = nearness(view_map, view) + nearer_by * view_map.spheres.radius
-    low, high = float(near[seen].min()), float(near[seen].max())
+    low, high = depth
     return np.clip((high - near) / max(high - low, np.finfo(float).tiny), 0.0, 1.0)
 
 

@@ -1,7 +1,9 @@
 """How the user wants a picture, and whose picture it is."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 
@@ -9,10 +11,12 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.model.entities import POLYMER, Entities, entities_of
 from molviz.model.molecule import Molecule
 from molviz.picture.coloring import AtomColors, ColorSubject, atom_colors
-from molviz.picture.page import Page
+from molviz.picture.page import NO_MARGINS, Margins, Page
 from molviz.picture.palette import Palette
 from molviz.picture.picture import Color
 from molviz.picture.style import Style, load_style
+
+Depth: TypeAlias = tuple[float, float]  # the least and the greatest nearness
 
 MOST_CEL = 2000  # atoms: larger things that are no polymers are drawn flat
 
@@ -86,6 +90,16 @@ def _usual_style(has_polymer: bool, atoms: int) -> str:
 
 
 @dataclass(frozen=True)
+class Alike:
+    """What the pictures of one set share, so that nothing jumps from one to the next; None for each its own."""
+
+    free: Margins = NO_MARGINS  # points that are kept free beside the drawing
+    depth: tuple[Depth, Depth] | None = None  # of what is seen: of the surfaces that fog fades, of centres
+    tint: Mapping[str, int] | None = None  # of each polymer chain
+    values: tuple[float, float] | None = None  # least and greatest that a continuous scheme shows
+
+
+@dataclass(frozen=True)
 class Subject:
     """The molecule of a drawing, and how its atoms and its size relate to the geometry."""
 
@@ -97,6 +111,7 @@ class Subject:
     painted: tuple[Painted, ...] = ()
     labelled: tuple[Labelled, ...] = ()
     description: str = ""
+    alike: Alike = Alike()
 
     @cached_property
     def entities(self) -> Entities:
@@ -108,9 +123,16 @@ class Subject:
         """The atoms of the spheres, in their order."""
         return self.molecule.take(self.atom)
 
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """The least and the greatest value that a continuous scheme shows, those of the whole set in a set."""
+        known = self.values[np.isfinite(self.values)]
+        own = (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
+        return self.alike.values or own
+
     def colors(self, options: DrawOptions, tint: Ints) -> AtomColors:
         """Return the colours of all atoms; ``options`` are settled."""
-        about = ColorSubject(self.molecule, self.entities, self.values)
+        about = ColorSubject(self.molecule, self.entities, self.values, self.bounds)
         colors = atom_colors(str(options.color_by), about, options.chosen_style(), options.palette, tint)
         for one in self.painted:
             colors = colors.painted(one.atoms, one.color, options.palette)

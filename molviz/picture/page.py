@@ -23,6 +23,7 @@ class Page:
     width: float | None = None  # of the drawing, margins not counted
     scale: float | None = None  # points per ångström
     margin: float | None = None
+    beside: int = 1  # pictures beside each other on the page, each with its share of a fixed width
 
 
 @dataclass(frozen=True)
@@ -62,6 +63,7 @@ def place(page: Page, low: Floats, high: Floats, line: float, free: Margins = NO
     margin = (USUAL_MARGIN[page.size] if page.margin is None else page.margin) + line
     extent = np.maximum(high - low, 1e-9)
     paper = PAPER.get(page.size)
+    paper = paper and (paper[0] / page.beside, paper[1])
     taken = np.array([free.left + free.right, free.bottom + free.top])
     room = None if paper is None else np.array(paper) - 2 * margin - taken
     scale = page.scale or _scale(page, extent, room)

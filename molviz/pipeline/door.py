@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from molviz.geometry.measure import Measure
     from molviz.pipeline.draw import Drawing
     from molviz.pipeline.inputs import Loaded
+    from molviz.pipeline.sets import DrawingSet
     from molviz.pipeline.visible import Visible
     from molviz.visibility.view import View
 
@@ -42,6 +43,8 @@ def draw(
     orient: str = "principal",
     rotate: str | Sequence[str | tuple[str, float]] = (),
     perspective: float | None = None,
+    turntable: int | None = None,
+    stereo: str | None = None,
     width: float | str | None = None,
     scale: float | None = None,
     margin: float | str | None = None,
@@ -56,7 +59,7 @@ def draw(
     radii: str | os.PathLike[str] = "bondi",
     scale_radii: float = 1.0,
     probe: float = 0.0,
-) -> Drawing:
+) -> Drawing | DrawingSet:
     """Return an exact vector picture of ``x``, which a notebook shows and ``save("x.pdf")`` writes.
 
     ``x`` is a path, a Molecule, a pair (centers (n, 3), radii (n,)) in ångström, ASE Atoms, a gemmi Structure or
@@ -72,7 +75,9 @@ def draw(
     * beside it: ``label`` ("resn HEM", "chain A and name CA={resn} {resi}", several), ``scale_bar`` (ångström, or
       True), ``title``, ``legend``;
     * the view: ``orient`` "principal" or "file", ``rotate`` ("x,30", or [("x", 30), ("y", 10)] in degrees),
-      ``perspective`` (the eye's distance in ångström);
+      ``perspective`` (the eye's distance in ångström), ``stereo`` "wall" or "cross" (two beside each other);
+    * a set of pictures, a ``DrawingSet``: ``turntable`` (so many views around the page's y axis), or ``model`` "2-4"
+      or "all";
     * the page: ``width`` ("8cm", or points), ``scale`` (points per ångström), ``margin``, ``page`` "fit", "a4" or
       "letter";
     * the part that is drawn: ``model`` (from 1), ``assembly``, ``select`` ("chain A and not water"), ``water`` (left
@@ -82,13 +87,14 @@ def draw(
     Raises InputError, a ValueError, naming what is wrong, and warns of what is odd.
     """
     options = dict(locals())
-    from molviz.pipeline.draw import draw_request_from, drawing_of
+    from molviz.pipeline.draw import draw_request_from
+    from molviz.pipeline.sets import drawn, set_options_from
     from molviz.pipeline.values import chosen, view_options_from
 
-    look, view_options = draw_request_from(options), view_options_from(options)
-    loaded = load_one(x, options)
-    tell(loaded.warnings, stacklevel=3)
-    drawing = drawing_of(loaded, look, view_options, chosen(options, "method"), check)
+    look, view_options, together = draw_request_from(options), view_options_from(options), set_options_from(options)
+    loaded = load_models(x, options)
+    tell((warning for one in loaded for warning in one.warnings), stacklevel=3)
+    drawing = drawn(loaded, look, view_options, together, chosen(options, "method"), check)
     tell(drawing.notes, stacklevel=3)
     return drawing
 
@@ -150,14 +156,20 @@ def visible(
 def load_one(x: object, options: Mapping[str, Any]) -> Loaded:
     """Return the one model of ``x`` that the options mean; raises InputError for what is wrong."""
     from molviz.errors import InputError
+    from molviz.pipeline.inputs import means_several
+
+    if means_several(str(options["model"])):
+        raise InputError(f"model: {options['model']!r}; expected a number from 1")
+    return load_models(x, options)[0]
+
+
+def load_models(x: object, options: Mapping[str, Any]) -> list[Loaded]:
+    """Return all models of ``x`` that the options mean; raises InputError for what is wrong."""
     from molviz.pipeline.inputs import loaded_from
     from molviz.pipeline.subject import reading_of
     from molviz.pipeline.values import input_options_from
 
-    wanted = input_options_from(options)
-    if wanted.model == "all":
-        raise InputError("model: 'all'; expected a number from 1")
-    return loaded_from(reading_of(x), wanted)[0]
+    return loaded_from(reading_of(x), input_options_from(options))
 
 
 def tell(notes: Iterable[str], stacklevel: int) -> None:

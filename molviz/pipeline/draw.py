@@ -2,20 +2,21 @@
 
 import json
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import PurePath
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints
+from molviz.arrays import Floats
 from molviz.errors import InputError
 from molviz.geometry.measure import measure_spheres
 from molviz.model.entities import entities_of
 from molviz.model.molecule import Molecule
 from molviz.model.selection import select
-from molviz.picture.compose import picture_of_map, picture_of_pieces
-from molviz.picture.options import DrawOptions, Labelled, Painted, Subject
+from molviz.picture.compose import alike_with, picture_of_map, picture_of_pieces
+from molviz.picture.options import Alike, DrawOptions, Labelled, Painted, Subject
 from molviz.picture.palette import load_palette
 from molviz.picture.picture import Color, Picture
 from molviz.picture.style import load_style
@@ -72,11 +73,10 @@ class Drawing:
     visible: int
     arcs: int
     _loaded: Loaded
-    _request: DrawRequest
     _options: DrawOptions  # settled
     _view: View
     _seen: VisibilityMap | Pieces
-    _atom: Ints  # row of the molecule of each of the spheres in it
+    subject: Subject  # the molecule, and what there is to tell of it
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -113,7 +113,7 @@ class Drawing:
             raise InputError(f"painting over gives no {suffix}; expected method visible", self._loaded.source)
         if suffix == JSON:
             return self._map_as_json()
-        return encoded(self._pen_picture if suffix == ".hpgl" else self._picture, suffix, plotter, paper)
+        return encoded(self.picture(suffix), suffix, plotter, paper)
 
     def save(self, path: str | os.PathLike[str], plotter: str = "", paper: str = "") -> None:
         """Write the drawing in the format that the suffix of the path names; the file appears whole or not at all.
@@ -124,6 +124,14 @@ class Drawing:
         if suffix.lower() not in suffixes():
             raise InputError(f"path: no format {suffix!r}; expected one of {' '.join(suffixes())}")
         save(os.fspath(path), self.to(suffix, plotter, paper))
+
+    def picture(self, suffix: str) -> Picture:
+        """Return the drawing as layers on a page, as the format of a suffix can show them."""
+        return self._pen_picture if suffix == ".hpgl" else self._picture
+
+    def alike(self) -> Alike:
+        """Return what the pictures of a set would share if all were like this one."""
+        return alike_with(self._seen, self._view, self.subject, self._options)
 
     @cached_property
     def _picture(self) -> Picture:
@@ -138,22 +146,13 @@ class Drawing:
         return self._composed(replace(self._options, style=load_style("line")))
 
     def _composed(self, options: DrawOptions) -> Picture:
-        molecule = self._loaded.molecule
-        low, high = extent(self._loaded.spheres, self._view)
-        values = color_values(self._loaded, str(options.color_by))
-        painted = tuple(
-            Painted(select(molecule, selection), color, selection) for selection, color in self._request.colors
-        )
-        labelled = tuple(labelled_of(molecule, label) for label in self._request.labels)
-        about = self._request.description
-        subject = Subject(molecule, self._atom, low, high, values, painted, labelled, about)
         if isinstance(self._seen, Pieces):
-            return picture_of_pieces(self._seen, subject, options)
-        return picture_of_map(self._seen, self._view, subject, options)
+            return picture_of_pieces(self._seen, self.subject, options)
+        return picture_of_map(self._seen, self._view, self.subject, options)
 
     def _map_as_json(self) -> bytes:
         assert isinstance(self._seen, VisibilityMap)  # painter's pieces were refused
-        data = map_as_data(self._seen, self._loaded.molecule.row[self._atom], self._view)
+        data = map_as_data(self._seen, self._loaded.molecule.row[self.subject.atom], self._view)
         return json.dumps(data, separators=(",", ":")).encode() + b"\n"
 
 
@@ -198,17 +197,45 @@ def drawing_of(
     where the eye is not in front of all atoms.
     """
     view = view_of(loaded.spheres, view_options)
-    drawn = len(loaded.molecule)
+    return drawings_of(loaded, request, [view], method, check)[0]
+
+
+def drawings_of(
+    loaded: Loaded, request: DrawRequest, views: Sequence[View], method: str = "visible", check: bool = False
+) -> list[Drawing]:
+    """Return one model drawn from each view; what no view changes is computed once. As ``drawing_of`` otherwise."""
+    scene = Scene(loaded.spheres, only=views[0] if len(views) == 1 else None)
     options = request.options.settled(entities_of(loaded.molecule), method == "painter")
+    subject = subject_of(loaded, request, options)
+    return [_seen_from(view, scene, loaded, subject, options, method, check) for view in views]
+
+
+def subject_of(loaded: Loaded, request: DrawRequest, options: DrawOptions) -> Subject:
+    """Return what there is to tell of a model, before anything is known of views; ``options`` are settled."""
+    molecule, nowhere = loaded.molecule, np.zeros(2)
+    values = color_values(loaded, str(options.color_by))
+    painted = tuple(Painted(select(molecule, selection), color, selection) for selection, color in request.colors)
+    labelled = tuple(labelled_of(molecule, label) for label in request.labels)
+    none = np.empty(0, dtype=np.int64)
+    return Subject(molecule, none, nowhere, nowhere, values, painted, labelled, request.description)
+
+
+def _seen_from(
+    view: View, scene: Scene, loaded: Loaded, subject: Subject, options: DrawOptions, method: str, check: bool
+) -> Drawing:
+    """The drawing of what is seen from one view."""
+    seen: VisibilityMap | Pieces
     if method == "painter":
-        pieces, atom = Scene(loaded.spheres, only=view).pieces(view)
-        visible, arcs = len(pieces.order), len(pieces.curve_arcs.curve)
-        return Drawing(loaded.read, drawn, visible, arcs, loaded, request, options, view, pieces, atom)
-    seen, atom = Scene(loaded.spheres, only=view).map(view)
-    if check:
-        check_map(seen, view)
-    visible = int(np.sum(np.unique(seen.loops.face[~slivers(seen)]) != BACKGROUND))
-    return Drawing(loaded.read, drawn, visible, len(seen.left), loaded, request, options, view, seen, atom)
+        seen, atom = scene.pieces(view)
+        visible, arcs = len(seen.order), len(seen.curve_arcs.curve)
+    else:
+        seen, atom = scene.map(view)
+        if check:
+            check_map(seen, view)
+        visible, arcs = int(np.sum(np.unique(seen.loops.face[~slivers(seen)]) != BACKGROUND)), len(seen.left)
+    low, high = extent(loaded.spheres, view)
+    subject = replace(subject, atom=atom, low=low, high=high)
+    return Drawing(loaded.read, len(loaded.molecule), visible, arcs, loaded, options, view, seen, subject)
 
 
 def color_values(loaded: Loaded, scheme: str) -> Floats:

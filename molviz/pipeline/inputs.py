@@ -23,7 +23,7 @@ FORMATS = tuple(READERS)
 class InputOptions:
     """Which part of a file is wanted, and how large its atoms are."""
 
-    model: str = "1"  # number from 1, or "all"
+    model: str = "1"  # number from 1, "all", or the first and the last of several: "2-4"
     assembly: str | None = None
     select: str | None = None
     water: bool | None = True  # None: left out where there is anything else
@@ -74,9 +74,16 @@ def _model_numbers(reading: Reading, model: str) -> list[int]:
     count = len(reading.models)
     if model == "all":
         return list(range(1, count + 1))
-    if model.isdecimal() and 1 <= int(model) <= count:
-        return [int(model)]
+    first, dash, last = model.partition("-")
+    last = last if dash else first
+    if first.isdecimal() and last.isdecimal() and 1 <= int(first) <= int(last) <= count:
+        return list(range(int(first), int(last) + 1))
     raise InputError(f"no model or frame {model!r}; the file has {count}, numbered from 1", reading.source)
+
+
+def means_several(model: str) -> bool:
+    """Return whether a choice of models may mean more than one: ``all`` or ``2-4``."""
+    return model == "all" or "-" in model
 
 
 def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:

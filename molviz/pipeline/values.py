@@ -20,6 +20,7 @@ Options = Mapping[str, Any]
 T = TypeVar("T")
 
 SMALLEST, LARGEST = 1e-6, 1e9  # of any number given as an option: what lies outside has no picture in doubles
+MOST = 3600  # pictures of a turntable: a tenth of a degree each
 CHOICES = {
     "method": ("visible", "painter"),
     "fill": ("flat", "none"),
@@ -27,6 +28,7 @@ CHOICES = {
     "page": ("fit", *PAPER),
     "color_by": ("auto", *DISCRETE, *CONTINUOUS),
     "parts": ("atoms", "merged"),
+    "stereo": ("wall", "cross"),
 }
 
 
@@ -51,6 +53,14 @@ def _number(value: Any, least: float) -> float:
     if isinstance(value, bool) or not least <= number <= LARGEST:
         raise ValueError(f"{value!r} is not a number from {least:g} to {LARGEST:g}")
     return number
+
+
+def parse_count(value: Any) -> int:
+    """Return a whole number from 1 to ``MOST``."""
+    number = _number(value, 1.0)
+    if number != int(number) or number > MOST:
+        raise ValueError(f"{value!r} is not a whole number from 1 to {MOST}")
+    return int(number)
 
 
 def parse_width(value: Any) -> float:

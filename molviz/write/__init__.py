@@ -1,6 +1,6 @@
 """A picture becomes bytes: one writer per format, chosen by suffix."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib import import_module
 
 from molviz.picture.picture import Picture
@@ -24,6 +24,21 @@ WRITERS: dict[str, Callable[[Picture], bytes]] = {
     ".pdf": _lazily("pdf", "write_pdf"),
     ".hpgl": _lazily("hpgl", "write_hpgl"),
 }
+
+
+MANY = {  # formats that hold several pictures: their modules and functions
+    ".svg": ("svg_frames", "write_animated"),
+    ".svgz": ("svg_frames", "write_animated_svgz"),
+    ".ps": ("postscript", "write_postscript_pages"),
+    ".pdf": ("pdf", "write_pdf_pages"),
+}
+
+
+def write_many(pictures: Sequence[Picture], suffix: str) -> bytes:
+    """Return pictures of one size in one file: pages, or an animation. Raises KeyError for formats not in ``MANY``."""
+    module, name = MANY[suffix]
+    writer: Callable[[Sequence[Picture]], bytes] = getattr(import_module(f"molviz.write.{module}"), name)
+    return writer(pictures)
 
 
 def write(picture: Picture, suffix: str) -> bytes:

@@ -2,7 +2,8 @@
 
 import re
 from codecs import BOM_UTF16_BE
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from io import BytesIO
 
 import pydyf
@@ -23,7 +24,7 @@ from molviz.picture.picture import (
 from molviz.write.font import Font, left
 from molviz.write.paint import border_colors, origins, shares
 from molviz.write.pdf_path import PLACES, shape_texts
-from molviz.write.pdf_resources import Resources
+from molviz.write.pdf_resources import Resources, SharedFont
 from molviz.write.text import clean, number
 
 STRUCTURE = re.compile("trailer|xref|obj|stream|%%EOF")
@@ -31,23 +32,51 @@ STRUCTURE = re.compile("trailer|xref|obj|stream|%%EOF")
 
 def write_pdf(picture: Picture) -> bytes:
     """Return the picture as PDF 1.7, one page of its own size; no dates and no identifier."""
-    pdf, out, names = pydyf.PDF(), BytesIO(), Resources(picture)
-    pdf.info.update({"Title": text_string(picture.title), "Producer": pydyf.String("molviz")})
-    if picture.description:
-        pdf.info["Subject"] = text_string(picture.description)
-    groups = [pydyf.Dictionary({"Type": "/OCG", "Name": text_string(layer.name)}) for layer in picture.layers]
-    content = pydyf.Stream([line.encode() for line in page_lines(picture, names)], compress=True)
-    for part in [*groups, content]:
-        pdf.add_object(part)
-    references = pydyf.Array([group.reference for group in groups])
+    return write_pdf_pages([picture])
+
+
+def write_pdf_pages(pictures: Sequence[Picture]) -> bytes:
+    """Return one page for each picture, with one font and one set of layers for all; named as the first."""
+    pdf, out, first = pydyf.PDF(), BytesIO(), pictures[0]
+    pdf.info.update({"Title": text_string(first.title), "Producer": pydyf.String("molviz")})
+    if first.description:
+        pdf.info["Subject"] = text_string(first.description)
+    named = [layer_names(picture) for picture in pictures]
+    groups = {
+        name: pydyf.Dictionary({"Type": "/OCG", "Name": text_string(name[0])})
+        for name in dict.fromkeys(name for names in named for name in names)
+    }
+    for group in groups.values():
+        pdf.add_object(group)
+    references = pydyf.Array([group.reference for group in groups.values()])
     pdf.catalog["OCProperties"] = pydyf.Dictionary(
         {"OCGs": references, "D": pydyf.Dictionary({"Order": references, "ON": references})}
     )
-    layers = pydyf.Dictionary({f"L{k}": group.reference for k, group in enumerate(groups)})
-    resources = pydyf.Dictionary({"Properties": layers, **names.add_to(pdf)})
-    pdf.add_page(page(pdf, picture, resources, content, names))
+    font = SharedFont(pictures)
+    for picture, layers in zip(pictures, named, strict=True):
+        add_page(pdf, picture, [groups[layer] for layer in layers], font)
     pdf.write(out)
     return out.getvalue()
+
+
+def layer_names(picture: Picture) -> list[tuple[str, int]]:
+    """Return the name of each layer, and how many before it have the same: what is equal on two pages is one layer."""
+    before: Counter[str] = Counter()
+    names = []
+    for layer in picture.layers:
+        names.append((layer.name, before[layer.name]))
+        before[layer.name] += 1
+    return names
+
+
+def add_page(pdf: pydyf.PDF, picture: Picture, groups: list[pydyf.Dictionary], font: SharedFont) -> None:
+    """Add a picture as a page; ``groups`` are those of its layers."""
+    names = Resources(picture, font.font)
+    content = pydyf.Stream([line.encode() for line in page_lines(picture, names)], compress=True)
+    pdf.add_object(content)
+    layers = pydyf.Dictionary({f"L{k}": group.reference for k, group in enumerate(groups)})
+    resources = pydyf.Dictionary({"Properties": layers, **names.add_to(pdf), **font.add_to(pdf)})
+    pdf.add_page(page(pdf, picture, resources, content, names))
 
 
 def text_string(text: str) -> pydyf.String | bytes:

@@ -1,6 +1,6 @@
 """What the operators of a PDF page call by name: gradients, opacities, and forms, which are painted as one."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import pydyf
@@ -12,16 +12,31 @@ from molviz.write.pdf_font import embedded
 from molviz.write.text import number
 
 
+class SharedFont:
+    """The font of all pages, with the characters of all their texts; added to the document once."""
+
+    def __init__(self, pictures: Sequence[Picture]) -> None:
+        wanted = frozenset[str]().union(*map(characters, pictures))
+        self.font: Font | None = font_of(wanted) if wanted else None
+        self.entries: dict[str, Any] | None = None
+
+    def add_to(self, pdf: pydyf.PDF) -> dict[str, Any]:
+        """Return the entries of a page's resources."""
+        if self.entries is None:
+            reference = self.font and embedded(pdf, self.font).reference
+            self.entries = {"Font": pydyf.Dictionary({"F": reference})} if reference else {}
+        return self.entries
+
+
 class Resources:
     """Gathers names while operators are written; equal things have one name."""
 
-    def __init__(self, picture: Picture) -> None:
+    def __init__(self, picture: Picture, font: Font | None) -> None:
         self.box = pydyf.Array([0, 0, number(picture.width, 3), number(picture.height, 3)])
         self.shared = pydyf.Dictionary()  # what page and forms have in common
         self.forms: list[pydyf.Stream] = []
         self.names: dict[Any, str] = {}
-        wanted = characters(picture)
-        self.font: Font | None = font_of(wanted) if wanted else None  # with the characters of all texts
+        self.font = font  # with the characters of all texts
 
     def shading(self, gradient: Gradient) -> str:
         """Return the name of a gradient."""
@@ -55,9 +70,8 @@ class Resources:
         """Add all forms to a document and return the entries of the page's resources."""
         for form in self.forms:
             pdf.add_object(form)
-        fonts = {"Font": pydyf.Dictionary({"F": embedded(pdf, self.font).reference})} if self.font else {}
         forms = {f"F{row}": form.reference for row, form in enumerate(self.forms)}
-        return {**self.shared, **fonts, **({"XObject": pydyf.Dictionary(forms)} if forms else {})}
+        return {**self.shared, **({"XObject": pydyf.Dictionary(forms)} if forms else {})}
 
     def page_entries(self) -> dict[str, Any]:
         """Return what a page with opacities has to say: its colours mix as a screen's do, whatever a printer has."""

@@ -1,7 +1,7 @@
 """PostScript and EPS: short procedures, true arcs, one line of text per arc."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -57,51 +57,69 @@ GRADIENT_PROCEDURES = r"""/k{gsave stroke grestore}bind def
 
 def write_postscript(picture: Picture) -> bytes:
     """Return the picture as a PostScript page of its own size (DSC 3.0, level 2)."""
-    size = f"{number(picture.width)} {number(picture.height)}"
-    return document(picture, "%!PS-Adobe-3.0", [f"<</PageSize[{size}]>>setpagedevice"])
+    return write_postscript_pages([picture])
+
+
+def write_postscript_pages(pictures: Sequence[Picture]) -> bytes:
+    """Return a PostScript page for each picture, all of the size of the first."""
+    size = f"{number(pictures[0].width)} {number(pictures[0].height)}"
+    return document(pictures, "%!PS-Adobe-3.0", [f"<</PageSize[{size}]>>setpagedevice"])
 
 
 def write_eps(picture: Picture) -> bytes:
     """Return the picture as Encapsulated PostScript (EPSF 3.0), cut to what is painted."""
-    return document(picture, "%!PS-Adobe-3.0 EPSF-3.0", [])
+    return document([picture], "%!PS-Adobe-3.0 EPSF-3.0", [])
 
 
-def document(picture: Picture, header: str, setup: list[str]) -> bytes:
-    """Return the whole document; ``setup`` are lines to be run before the page."""
-    wanted = characters(picture)
+def document(pictures: Sequence[Picture], header: str, setup: list[str]) -> bytes:
+    """Return the whole document; ``setup`` are lines to be run before the pages."""
+    wanted = frozenset[str]().union(*map(characters, pictures))
     font = type42(font_of(wanted)) if wanted else None
     setup = [*(font.lines if font else []), *setup]
     setup = ["%%BeginSetup", *setup, "%%EndSetup"] if setup else []
+    pictures = [on_paper(picture) for picture in pictures]
+    layers = [layer for picture in pictures for layer in picture.layers]
+    names = {gradient: f"S{row}" for row, gradient in enumerate(gradients(layers))}
+    prolog = [PROLOG, *definitions(layers, names), "end", "%%EndProlog"]
+    lines = [header, *comments(pictures, 3 if names else 2), *prolog, *setup]
+    for number_of_page, picture in enumerate(pictures, start=1):
+        lines += [f"%%Page: {number_of_page} {number_of_page}"]
+        lines += ["molviz begin gsave 1 setlinecap 1 setlinejoin newpath", *background(picture)]
+        lines += [*body(picture, names, font), "grestore end", "showpage"]
+    return ("\n".join([*lines, "%%Trailer", "%%EOF"]) + "\n").encode("ascii")
+
+
+def on_paper(picture: Picture) -> Picture:
+    """Return the picture with opaque layers, as they look on its background or white paper."""
     paper = picture.background or (255, 255, 255)
-    picture = replace(picture, layers=[opaque(layer, paper) for layer in picture.layers])
-    names = {gradient: f"S{row}" for row, gradient in enumerate(gradients(picture.layers))}
-    page = ["%%Page: 1 1", "molviz begin gsave 1 setlinecap 1 setlinejoin newpath"]
-    trailer = ["grestore end", "showpage", "%%Trailer", "%%EOF"]
-    prolog = [PROLOG, *definitions(picture, names), "end", "%%EndProlog"]
-    start = [header, *comments(picture, 3 if names else 2), *prolog, *setup, *page, *background(picture)]
-    lines = [*start, *body(picture, names, font), *trailer]
-    return ("\n".join(lines) + "\n").encode("ascii")
+    return replace(picture, layers=[opaque(layer, paper) for layer in picture.layers])
 
 
-def definitions(picture: Picture, names: Names) -> Iterator[str]:
+def definitions(layers: Sequence[Layer], names: Names) -> Iterator[str]:
     """Yield the procedures and gradients that few pictures need."""
     if names:
         yield GRADIENT_PROCEDURES
     yield from (f"/{name}{shading(gradient)}def" for gradient, name in names.items())
-    if any(isinstance(layer, ShadeLayer) for layer in picture.layers):
+    if any(isinstance(layer, ShadeLayer) for layer in layers):
         yield SHADE_PROCEDURES
 
 
-def comments(picture: Picture, level: int) -> Iterator[str]:
+def comments(pictures: Sequence[Picture], level: int) -> Iterator[str]:
     """Yield the header comments; no date, so that the same picture gives the same bytes."""
-    box = picture.box if picture.background is None else (0.0, 0.0, picture.width, picture.height)
+    first, boxes = pictures[0], list(map(painted_box, pictures))
+    box = [limit(sides) for limit, sides in zip((min, min, max, max), zip(*boxes, strict=True), strict=True)]
     tight = [math.floor(box[0]), math.floor(box[1]), math.ceil(box[2]), math.ceil(box[3])]
     yield "%%BoundingBox: " + " ".join(map(str, tight))
     yield "%%HiResBoundingBox: " + " ".join(f"{value:.3f}" for value in box)
-    yield f"%%Title: {ascii_line(picture.title)[:COMMENT]}"
-    yield from (f"% drawn by {part}" for part in pieces(ascii_line(picture.description), COMMENT))
-    yield from ("%%Creator: molviz", f"%%LanguageLevel: {level}", "%%DocumentData: Clean7Bit", "%%Pages: 1")
-    yield "%%EndComments"
+    yield f"%%Title: {ascii_line(first.title)[:COMMENT]}"
+    yield from (f"% drawn by {part}" for part in pieces(ascii_line(first.description), COMMENT))
+    yield from ("%%Creator: molviz", f"%%LanguageLevel: {level}", "%%DocumentData: Clean7Bit")
+    yield from (f"%%Pages: {len(pictures)}", "%%EndComments")
+
+
+def painted_box(picture: Picture) -> tuple[float, float, float, float]:
+    """Return the box of all that is painted on a page."""
+    return picture.box if picture.background is None else (0.0, 0.0, picture.width, picture.height)
 
 
 def background(picture: Picture) -> list[str]:

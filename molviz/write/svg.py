@@ -42,17 +42,28 @@ OFTEN = 4  # shapes of one colour from which on a class is shorter than the colo
 
 def write_svg(picture: Picture) -> bytes:
     """Return the picture as SVG 1.1 in UTF-8; lengths in points."""
+    drawing = empty_drawing(picture)
+    elements = Elements(drawing)
+    for layer in picture.layers:
+        drawing.add(elements.layer(layer, picture.height))
+    return finished(drawing, elements)
+
+
+def empty_drawing(picture: Picture) -> Drawing:
+    """Return the root of a picture's page with what it is called, and its background."""
     width, height = number(picture.width), number(picture.height)
     drawing = Drawing(size=(f"{width}pt", f"{height}pt"), viewBox=f"0 0 {width} {height}", profile="full", debug=False)
     drawing["xmlns:inkscape"] = INKSCAPE
     describe(drawing, picture)
     if picture.background is not None:
         drawing.add(Rect((0, 0), (width, height), fill=hexadecimal(picture.background), factory=drawing))
-    elements = Elements(drawing)
-    for layer in picture.layers:
-        drawing.add(elements.layer(layer, picture.height))
-    if elements.rules:
-        drawing.defs.add(Style("".join(f".{name}{{{rule}}}" for rule, name in elements.rules.items())))
+    return drawing
+
+
+def finished(drawing: Drawing, elements: "Elements", more: str = "") -> bytes:
+    """Return the file; its style sheet has the rules of the elements, and ``more``."""
+    if elements.rules or more:
+        drawing.defs.add(Style("".join(f".{name}{{{rule}}}" for rule, name in elements.rules.items()) + more))
     return f'<?xml version="1.0" encoding="utf-8"?>\n{drawing.tostring()}\n'.encode()
 
 
