@@ -190,7 +190,7 @@ def test_models_and_assemblies_are_those_asked_for(tmp_path: Path) -> None:
     for keywords, x in parts:
         with pytest.warns(UserWarning, match="the models differ in atoms: from 1 to 2"):
             assert sorted(molviz.Scene(path, **keywords).molecule.position[:, 0].tolist()) == x, keywords
-    for number in (0, 3, -1, 1.5, "all", "x", ""):
+    for number in (0, 3, -1, 1.5, "3-4", "x", ""):
         with pytest.raises(InputError, match="model"):
             molviz.draw(path, model=number)  # type: ignore[arg-type]
     assert [one.model for one in loaded_from(read(path), InputOptions(model="all"))] == [1, 2]
@@ -306,8 +306,8 @@ def test_every_public_object_is_shown_in_one_line() -> None:
 
 
 def test_the_names_of_the_package_are_listed_and_explained() -> None:
-    names = ["Drawing", "InputError", "InternalError", "Measure", "Molecule", "Reading", "Scene", "View", "Visible",
-             "draw", "measure", "read", "visible"]  # fmt: skip
+    names = ["Drawing", "DrawingSet", "InputError", "InternalError", "Measure", "Molecule", "Reading", "Scene", "View",
+             "Visible", "draw", "measure", "read", "visible"]  # fmt: skip
     assert dir(molviz) == names
     text = pydoc.plain(pydoc.render_doc(molviz))
     for name in names:
@@ -365,7 +365,7 @@ def test_a_probe_that_is_no_length_is_refused_by_name(function: Callable[..., An
      ("background", (1, 2)), ("background", (0, 0, 256)), ("background", "pinkish"), ("background", (0.5, 0, 0)),
      ("perspective", 0), ("perspective", float("nan")), ("chain", 5), ("chain", "Z"), ("select", 5),
      ("select", "mood"), ("color_by", "mood"), ("method", "magic"), ("orient", "up"), ("page", "a5"), ("fill", "full"),
-     ("style", "nope"), ("radii", "nope"), ("model", 2), ("model", 0), ("model", "all"), ("assembly", "7"),
+     ("style", "nope"), ("radii", "nope"), ("model", 2), ("model", 0), ("model", "1-2"), ("assembly", "7"),
      ("color", "crimson")],
 )  # fmt: skip
 def test_a_wrong_value_is_refused_by_name(name: str, value: object) -> None:

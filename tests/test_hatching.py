@@ -58,7 +58,8 @@ def on_boundary(arcs: PlaneArcs, points: np.ndarray) -> np.ndarray:
             away, slope = one.at(guess) - points, one.tangent(guess)
             step = (away * slope).sum(axis=1) / np.maximum((slope**2).sum(axis=1), 1e-12)
             low, high = sorted((arcs.start[k], arcs.start[k] + arcs.sweep[k]))
-            guess = np.clip(guess - step, low, high)
+            whole = high - low > 2 * np.pi - 1e-9  # no ends to stop at
+            guess = guess - step if whole else np.clip(guess - step, low, high)
         least = np.minimum(least, np.hypot(*(one.at(guess) - points).T))
     return least
 
