@@ -1,5 +1,6 @@
 """Styles keep what they promise."""
 
+import re
 from itertools import pairwise
 from pathlib import Path
 
@@ -27,6 +28,12 @@ def test_print_has_greys_that_stay_apart_and_nothing_else(name: str) -> None:
     assert all(red == green == blue for red, green, blue in greys)
     levels = sorted(float(lightness(color)) for color in {*colors.element.values(), *colors.residue.values()})
     assert min(light - dark for dark, light in pairwise(levels)) >= 8
+
+
+def test_print_has_no_hue() -> None:
+    """Not in its ink either, whatever the palette."""
+    colors = re.findall(r"#([0-9a-f]{6})\b", molviz.draw(CAFFEINE, style="print", palette="clay").svg())
+    assert colors and all(color[:2] == color[2:4] == color[4:] for color in colors)
 
 
 @pytest.mark.parametrize("name", ["goodsell", "cel", "print"])
