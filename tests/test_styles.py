@@ -1,5 +1,6 @@
 """Styles keep what they promise."""
 
+import re
 from itertools import pairwise
 from pathlib import Path
 
@@ -27,6 +28,12 @@ def test_print_has_greys_that_stay_apart_and_nothing_else(name: str) -> None:
     assert all(red == green == blue for red, green, blue in greys)
     levels = sorted(float(lightness(color)) for color in {*colors.element.values(), *colors.residue.values()})
     assert min(light - dark for dark, light in pairwise(levels)) >= 8
+
+
+def test_print_has_no_hue() -> None:
+    """Not in its ink either, whatever the palette."""
+    colors = re.findall(r"#([0-9a-f]{6})\b", molviz.draw(CAFFEINE, style="print", palette="clay").svg())
+    assert colors and all(color[:2] == color[2:4] == color[4:] for color in colors)
 
 
 @pytest.mark.parametrize("name", ["goodsell", "cel", "print"])
@@ -58,3 +65,38 @@ def test_no_style_is_told_once(name: str, told: str) -> None:
     with pytest.raises(InputError) as raised:
         load_style(name)
     assert str(raised.value) == told
+
+
+def test_a_line_changes_its_ink_for_no_short_stretch() -> None:
+    """In 1A1F, a protein on DNA, lines run before both; no stretch is under an ångström between longer ones."""
+    scene = molviz.Scene(CAFFEINE.parent / "1a1f.pdb", no_water=True)
+    view_map, row = scene.map(scene.view)
+    runs = horizon_runs(view_map, scene.view)
+    group = np.unique(scene.molecule.chain, return_inverse=True)[1].ravel()[row]
+    dark = line_widths(runs, group, np.zeros(len(group)), load_style("goodsell").ink, 5.0).dark
+    stretches = 0
+    for begin, end in pairwise(runs.start.tolist()):
+        changes = np.flatnonzero(np.diff(dark[begin:end].astype(int))) + 1
+        parts = np.diff([0, *changes.tolist(), end - begin])
+        stretches += len(parts) > 1
+        lone = [k for k in range(1, len(parts) - 1) if parts[k] < min(parts[k - 1], parts[k + 1])]
+        assert all(parts[k] * runs.spacing >= 0.99 for k in lone)
+    assert stretches > 10
+
+
+@pytest.mark.parametrize(("paper", "light"), [("#101820", True), ("#fff8e8", False)])
+def test_texts_are_seen_on_any_page(paper: str, light: bool) -> None:
+    svg = molviz.draw(CAFFEINE, title="caffeine", scale_bar=True, background=paper).svg()
+    assert ('fill="#f0f0f0"' in svg) == light
+
+
+def test_a_palette_has_its_own_ink_around_what_it_colours() -> None:
+    from molviz.picture.palette import load_palette
+
+    protein = CAFFEINE.parent / "1a8o.pdb"
+    ink = "#{:02x}{:02x}{:02x}".format(*load_palette("clay").ink)
+    assert molviz.draw(protein, palette="clay", crease=0, style="goodsell", background="white", title="x").svg()
+    drawn = molviz.draw(protein, palette="clay", style="goodsell")
+    layers = {layer.name: layer for layer in drawn.picture(".svg").layers}
+    darkest = min(layers["ink"].paint, key=sum)
+    assert np.abs(np.array(darkest) - load_palette("clay").ink).max() < 30, ink

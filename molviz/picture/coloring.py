@@ -22,7 +22,7 @@ CONTINUOUS = {  # schemes that colour by a number per atom, and what their legen
     "bfactor": "B factor, Å²",
     "exposure": "exposed area, Å²",
 }
-DARKER_INK = 0.8  # share of the palette's ink in the inner lines of colours that have none of their own
+DARKER_INK = 0.8  # share of the lines' colour in the inner lines of colours that have none of their own
 DARKER_SHADE = 0.7  # the same for their shade
 
 
@@ -46,9 +46,9 @@ class AtomColors(NamedTuple):
         """Return the colours of the given atoms."""
         return AtomColors(self.fill[rows], self.ink[rows], self.shade[rows])
 
-    def painted(self, atoms: Bools, color: Color, palette: Palette) -> "AtomColors":
-        """Return the same with the given atoms (n,) in one colour."""
-        own = with_own_darks(np.array([color]), palette)
+    def painted(self, atoms: Bools, color: Color, ink: Color) -> "AtomColors":
+        """Return the same with the given atoms (n,) in one colour, and darks of it and the ink."""
+        own = with_own_darks(np.array([color]), ink)
         columns = (np.where(atoms[:, None], new, old) for new, old in zip(own, self, strict=True))
         return AtomColors(*columns)
 
@@ -70,13 +70,13 @@ def atom_colors(scheme: str, subject: ColorSubject, style: Style, palette: Palet
             (style.colors.residue, molecule.residue_name)
         )  # fmt: skip
         fill = np.array([table.get(name, style.colors.unknown) for name in names.tolist()])
-    return with_own_darks(fill, palette)
+    return with_own_darks(fill, style.lines.color)
 
 
-def with_own_darks(fill: Ints, palette: Palette) -> AtomColors:
-    """Return colours with inks and shades made of them and the palette's ink."""
+def with_own_darks(fill: Ints, ink_of_lines: Color) -> AtomColors:
+    """Return colours with inks and shades made of them and the colour of the style's lines."""
     distinct, number = np.unique(fill, axis=0, return_inverse=True)
-    ink, shade = (mix(distinct, palette.ink, share)[number.ravel()] for share in (DARKER_INK, DARKER_SHADE))
+    ink, shade = (mix(distinct, ink_of_lines, share)[number.ravel()] for share in (DARKER_INK, DARKER_SHADE))
     return AtomColors(fill, ink, shade)
 
 

@@ -53,6 +53,9 @@ from molviz.visibility.projection import images_of
 from molviz.visibility.view import View
 
 NO_DISCS = np.empty((0, 3))
+BY_PALETTE = ("entity", "chain")  # schemes whose colours are the palette's
+DARK_PAGE = 50.0  # L*: on pages below, texts and bars are light
+LIGHT_TEXT = (240, 240, 240)
 INK_CLASSES = 3  # of distance, in which ink takes on the haze
 INK_FOG = 0.25  # of the fog's strength that the ink of the farthest class takes on
 
@@ -104,6 +107,12 @@ class MapComposer:
     def runs(self) -> HorizonRuns:
         """The visible horizons."""
         return horizon_runs(self.map, self.view)
+
+    @property
+    def dark_ink(self) -> Color:
+        """The ink around things: the palette's where it gives the colours, else the style's."""
+        by_palette = self.options.color_by in BY_PALETTE and self.style.colors.scheme in BY_PALETTE
+        return self.options.palette.ink if by_palette else self.style.lines.color
 
     @cached_property
     def haze(self) -> Color:
@@ -270,7 +279,7 @@ class MapComposer:
         sphere = runs.sphere[strokes.run]
         far_class = np.minimum((looks.far[sphere] * INK_CLASSES).astype(np.int64), INK_CLASSES - 1)
         share = INK_FOG * self.style.fog.strength * (far_class + 0.5) / INK_CLASSES
-        dark = np.where(strokes.dark[:, None], self.style.lines.color, looks.ink[sphere])
+        dark = np.where(strokes.dark[:, None], self.dark_ink, looks.ink[sphere])
         color = mix(dark, self.haze, share)
         paths, distinct = in_colors(outlined(runs, widths, strokes), np.column_stack([-far_class, color]))
         paths = paths._replace(arcs=paths.arcs.moved(self.placement.scale, self.placement.shift))
@@ -376,8 +385,9 @@ def furnished(
     style = options.chosen_style()
     line = max(style.ink.silhouette.points, style.lines.outline.width)
     line = max(line if options.outline is None else options.outline, options.crease or 0.0)
-    halo = options.background or (255, 255, 255)
-    furniture = Furniture(options.title, options.scale_bar, legend, labels, discs, style.lines.color, halo)
+    paper = options.background or (255, 255, 255)
+    color = style.lines.color if lightness(paper) > DARK_PAGE else LIGHT_TEXT
+    furniture = Furniture(options.title, options.scale_bar, legend, labels, discs, color, paper)
     return furnish(options.page, subject.low, subject.high, line / 2, furniture, subject.alike.free)
 
 

@@ -20,6 +20,7 @@ from molviz.visibility.map import BACKGROUND
 OUTSIDE = 0.6  # of the width lies outside the horizon
 SIGMA = 0.35  # ångström, of the smoothing of widths along a line
 SIGMA_INK = 0.5  # ångström, of the smoothing of where which ink is used
+SHORTEST_INK = 1.0  # ångström: a line changes its ink for no less
 THINNEST = 0.035  # ångström: a thinner line is not drawn
 THINNEST_SHARE = 0.13  # of the widest inner line
 ARC = 7.5  # samples along a line's side that one arc of a circle stands for: 1.5 Å unless giants are drawn
@@ -96,10 +97,22 @@ def line_widths(runs: HorizonRuns, group: Ints, far: Floats, style: InkStyle, sc
     ramp = smooth_step((runs.jump - style.faint) / (style.full - style.faint))
     width = np.where(background, silhouette, np.where(foreign, between * (0.5 + 0.5 * ramp), inside * ramp))
     width = _smoothed(width * (1.0 - FARTHER_THINNER * far[own]), runs, SIGMA)
-    dark = _smoothed((background | foreign).astype(float), runs, SIGMA_INK) > 0.5
+    dark = _without_short(_smoothed((background | foreign).astype(float), runs, SIGMA_INK) > 0.5, runs)
     width[width < max(THINNEST, THINNEST_SHARE * inside)] = 0.0
     width[_spurs(runs, width, SPUR_SHARE * inside)[owner]] = 0.0
     return Widths(width, dark)
+
+
+def _without_short(dark: Bools, runs: HorizonRuns) -> Bools:
+    """The inks along runs; stretches of one ink below SHORTEST_INK, and below those beside them, take on their ink."""
+    owner = runs.owner()
+    begins = np.append(True, (owner[1:] != owner[:-1]) | (dark[1:] != dark[:-1]))[: len(dark)]
+    first = np.flatnonzero(begins)
+    run, length = owner[first], np.diff(np.append(first, len(dark))) * runs.spacing
+    after = np.append(np.where(run[1:] == run[:-1], length[1:], np.nan), np.nan)[: len(first)]
+    before = np.append(np.nan, np.where(run[1:] == run[:-1], length[:-1], np.nan))[: len(first)]
+    longer = ~(before <= length) & ~(after <= length) & ~(np.isnan(before) & np.isnan(after))
+    return np.asarray(dark ^ ((length < SHORTEST_INK) & longer)[np.cumsum(begins) - 1])
 
 
 def _smoothed(values: Floats, runs: HorizonRuns, sigma: float) -> Floats:

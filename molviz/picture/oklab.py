@@ -78,7 +78,7 @@ def lighter(color: Colors, by: float | Floats) -> Ints:
     """Return the colours (..., 3) with ``by`` (a number, or (...)) added to their L*, of the same hue.
 
     Darker: OKLab times s is light times s³, so s is the ratio of the cube roots of luminance: exact, and never outside
-    of what a screen shows. Lighter: mixed with white, the share found by bisection.
+    of what a screen shows. Lighter: moved towards white, lightness before chroma, the share found by bisection.
     """
     lab, start = to_oklab(color), lightness(color)
     goal = np.clip(start + by, 0.0, 100.0)
@@ -98,8 +98,9 @@ def _root(light: Floats) -> Floats:
 
 
 def _whitened(lab: Floats, share: Floats) -> Floats:
-    mixed: Floats = lab + share[..., None] * (np.array([1.0, 0.0, 0.0]) - lab)
-    return mixed
+    left = np.stack([1.0 - share, 1.0 - share**2, 1.0 - share**2], axis=-1)  # chroma goes last, or sand would be chalk
+    whitened: Floats = np.array([1.0, 0.0, 0.0]) + left * (lab - np.array([1.0, 0.0, 0.0]))
+    return whitened
 
 
 def shaded(color: Colors, shade: Colors, drop: float | Floats) -> Ints:

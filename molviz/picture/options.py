@@ -133,7 +133,8 @@ class Subject:
     def colors(self, options: DrawOptions, tint: Ints) -> AtomColors:
         """Return the colours of all atoms; ``options`` are settled."""
         about = ColorSubject(self.molecule, self.entities, self.values, self.bounds)
-        colors = atom_colors(str(options.color_by), about, options.chosen_style(), options.palette, tint)
+        style = options.chosen_style()
+        colors = atom_colors(str(options.color_by), about, style, options.palette, tint)
         for one in self.painted:
-            colors = colors.painted(one.atoms, one.color, options.palette)
+            colors = colors.painted(one.atoms, one.color, style.lines.color)
         return colors
