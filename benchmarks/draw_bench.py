@@ -16,7 +16,10 @@ from pathlib import Path
 REPEATS = 3
 SAMPLES = Path(__file__).parent.parent / "samples"
 IMPORTS = "import numpy, gemmi, click, svgwrite"
-CASES = [("visible", "svg"), ("painter", "svg"), ("visible", "ps")]
+CASES = [  # style, method, format
+    ("flat", "visible", "svg"), ("flat", "painter", "svg"), ("flat", "visible", "ps"), ("goodsell", "visible", "svg"),
+    ("goodsell", "visible", "eps"),
+]  # fmt: skip
 RASMOL = Path("/usr/lib/rasmol/rasmol.32")  # of Debian's package: the program without a window, if asked so
 
 
@@ -41,26 +44,29 @@ def best(command: list[str], stdin: str = "") -> tuple[float, float]:
     return min(seconds for seconds, _ in runs), max(memory for _, memory in runs)
 
 
-def molviz(source: Path, method: str, target: Path) -> tuple[float, float, int]:
-    """Return seconds, memory in MB and bytes of one drawing."""
-    command = [sys.executable, "-m", "molviz", "draw", str(source), "--method", method, "-o", str(target), "--quiet"]
+def molviz(source: Path, style: str, method: str, target: Path) -> tuple[float, float, int]:
+    """Return seconds, memory in MB and bytes of one drawing; water is drawn, as the peer does."""
+    options = ["--style", style, "--method", method, "--water", "--quiet"]
+    command = [sys.executable, "-m", "molviz", "draw", str(source), "-o", str(target), *options]
     return *best(command), target.stat().st_size
 
 
 def report(source: Path, folder: Path, imports: float) -> None:
     """Print the figures of one file."""
-    times: dict[tuple[str, str], float] = {}
-    for method, suffix in CASES:
-        seconds, memory, size = molviz(source, method, folder / f"picture.{suffix}")
-        times[method, suffix] = seconds
+    times: dict[tuple[str, str, str], float] = {}
+    for case in CASES:
+        style, method, suffix = case
+        seconds, memory, size = molviz(source, style, method, folder / f"picture.{suffix}")
+        times[case] = seconds
         print(
-            f"{source.name:<22}{method:<9}{suffix:<5}{seconds:7.2f} s {seconds / imports:7.2f} x imports"
+            f"{source.name:<22}{style:<9}{method:<9}{suffix:<5}{seconds:7.2f} s {seconds / imports:7.2f} x imports"
             f"{memory:7.0f} MB{size:12,} bytes"
         )
-    print(f"{'':<22}visible takes {times['visible', 'svg'] / times['painter', 'svg']:.2f} times as long as painter")
+    ratio = times["flat", "visible", "svg"] / times["flat", "painter", "svg"]
+    print(f"{'':<22}visible takes {ratio:.2f} times as long as painter")
     if RASMOL.exists() and ".pdb" in source.suffixes:
         seconds, size = rasmol(source, folder)
-        ratio = times["visible", "ps"] / seconds
+        ratio = times["flat", "visible", "ps"] / seconds
         print(f"{'':<22}RasMol, vector PS {seconds:12.2f} s; molviz/RasMol {ratio:.2f}{size:26,} bytes")
 
 
