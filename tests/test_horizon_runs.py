@@ -81,6 +81,8 @@ def test_runs_come_out_under_the_horizon_of_a_nearer_sphere(seed: int, distance:
     for host, point in ((runs.before, runs.arcs.starts()), (runs.after, runs.arcs.ends())):
         rows = np.flatnonzero((host >= 0) & ~runs.closed)
         assert np.all(host[rows] != runs.sphere[rows])
+        near = occluders_of(view_map.spheres, view).nearness()
+        rows = rows[near[host[rows]] > near[runs.sphere[rows]]]  # the others enter the ball of a farther one
         images = view_map.horizons().take(host[rows])
         for row, image in zip(rows.tolist(), range(len(rows)), strict=True):
             t = np.linspace(0, 2 * np.pi, 4001)

@@ -198,7 +198,7 @@ def test_shapes_are_closed_and_their_ink_is_inside(seed: int, count: int, distan
     rings = np.diff(paths.shape_start) == 2
     assert np.array_equal(rings, strokes.whole) and np.all(np.diff(paths.shape_start) <= 2)
     for first, ring in zip(paths.shape_start[:-1].tolist(), rings.tolist(), strict=True):
-        assert area[first] > 0
+        assert area[first] >= 0  # of a line that is cut from both ends nothing may be left
         if ring:
             assert area[first + 1] < 0 and area[first] + area[first + 1] > 0
 
@@ -254,9 +254,8 @@ def test_short_lines_with_a_thin_end_are_dropped_and_wide_ones_are_not() -> None
 
 def horizon_gap(runs: HorizonRuns, host: int, points: np.ndarray) -> np.ndarray:
     """Distances of points from the image of a sphere's horizon, by the points of its whole ellipse."""
-    row = np.flatnonzero(runs.sphere == host)[0]
-    t = np.linspace(0, 2 * np.pi, 20_001)
-    ellipse = runs.arcs.c[row] + np.cos(t)[:, None] * runs.arcs.u[row] + np.sin(t)[:, None] * runs.arcs.v[row]
+    t, whole = np.linspace(0, 2 * np.pi, 20_001), runs.horizons
+    ellipse = whole.c[host] + np.cos(t)[:, None] * whole.u[host] + np.sin(t)[:, None] * whole.v[host]
     return np.array([np.hypot(*(ellipse - point).T).min() for point in points])
 
 

@@ -1,8 +1,8 @@
 """Ink: lines of varying width along horizons, as filled shapes bounded by arcs of circles.
 
 A line is the heavier the farther the surface behind it lies, and the heaviest before the background; where both sides
-are nearly level it ends in a point. Where a line passes under the horizon of a nearer sphere, its two sides end on that
-horizon; where it meets another line in a corner, it is round.
+are nearly level it ends in a point. Where a line passes under the horizon of a nearer sphere, or enters another's ball,
+its two sides end on that sphere's horizon.
 """
 
 from dataclasses import dataclass
@@ -202,7 +202,7 @@ def _beside(arcs: PlaneArcs, t: Floats, offset: Floats) -> Floats:
 def _mitred(
     runs: HorizonRuns, strokes: Strokes, owner: Ints, place: Ints, pieces: Ints, t: Floats, offset: Floats
 ) -> Floats:
-    """The points of one side of all strokes; at ends under a nearer horizon its last points lie before that horizon."""
+    """The points of one side of all strokes; at ends of runs the last points lie on the horizon of the sphere there."""
     run = strokes.run[owner]
     arcs = runs.arcs.take(run)
     shift = np.zeros(len(t))
@@ -234,7 +234,7 @@ def _to_horizon(
 
     ``onward`` is the direction, 1 or −1, in which lines go on beyond these ends.
     """
-    ellipse = _horizon_images(runs, host)
+    ellipse = runs.horizons.take(host)
     size, step = arcs.major(), np.zeros(len(t))
     cut, tip = -onward * LONGEST_CUT / size, onward * LONGEST_TIP * np.abs(offset) / size
     low, high = np.minimum(cut, tip), np.maximum(cut, tip)
@@ -244,13 +244,6 @@ def _to_horizon(
         step = np.clip(step, low, high)
     value, _ = _inside(ellipse, arcs, t + step, offset)
     return np.asarray(np.where(np.abs(value) < 1e-6, step, 0.0))
-
-
-def _horizon_images(runs: HorizonRuns, host: Ints) -> PlaneArcs:
-    """The whole ellipses of the hosts' horizons, from any run of each."""
-    order = np.argsort(runs.sphere, kind="stable")
-    place = np.searchsorted(runs.sphere[order], host)
-    return runs.arcs.take(order[np.minimum(place, len(order) - 1)])
 
 
 def _inside(ellipse: PlaneArcs, arcs: PlaneArcs, t: Floats, offset: Floats) -> tuple[Floats, Floats]:
@@ -275,8 +268,7 @@ def _loops(
     forwards = arcs_through(outer[row], outer[row + 1], outer[row + 2])
     backwards = arcs_through(inner[row + 2], inner[row + 1], inner[row])
     last = first + 2 * pieces
-    end_cap = _caps(outer[last], inner[last], _corner(strokes.at_end, runs.after[strokes.run]), inner[last - 1])
-    start_cap = _caps(inner[first], outer[first], _corner(strokes.at_start, runs.before[strokes.run]), outer[first + 1])
+    end_cap, start_cap = straight_pieces(outer[last], inner[last]), straight_pieces(inner[first], outer[first])
     loop = np.concatenate([arc_owner, np.arange(len(pieces)), arc_owner, np.arange(len(pieces))])
     part = np.repeat([0, 1, 2, 3], [len(arc_owner), len(pieces), len(arc_owner), len(pieces)])
     along = np.concatenate([arc_place, np.zeros(len(pieces)), -arc_place, np.zeros(len(pieces))])
@@ -290,24 +282,6 @@ def _loops(
     loop_start = np.append(loop_first, len(order))
     shape_start = offsets(loop[order][loop_first], len(pieces))
     return Paths(everything.take(order), loop_start, shape_start)
-
-
-def _corner(at_end: Bools, host: Ints) -> Bools:
-    """Which ends are ends of runs under no horizon: there two horizons meet in a corner."""
-    return at_end & (host < 0)
-
-
-def _caps(start: Floats, end: Floats, is_round: Bools, before: Floats) -> PlaneArcs:
-    """Straight caps, or half circles bulging away from ``before``."""
-    middle, half = (start + end) / 2, (end - start) / 2
-    across = np.column_stack([half[:, 1], -half[:, 0]])
-    tip = middle + np.where((dot(across, middle - before) < 0)[:, None], -across, across)
-    rounded = arcs_through(start, tip, end)
-    straight = straight_pieces(start, end)
-    return PlaneArcs(
-        *(np.where(is_round.reshape(-1, *[1] * (one.ndim - 1)), one, other)
-          for one, other in zip(rounded, straight, strict=True))
-    )  # fmt: skip
 
 
 def straight_pieces(start: Floats, end: Floats) -> PlaneArcs:

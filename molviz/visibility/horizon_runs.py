@@ -8,8 +8,9 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.geometry.rows import expand, offsets
 from molviz.visibility.curves import HORIZON
-from molviz.visibility.eye import occluders_of
+from molviz.visibility.eye import occluders_of, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
+from molviz.visibility.projection import images_of
 from molviz.visibility.view import View
 
 SPACING = 0.2  # ångström between samples
@@ -22,8 +23,9 @@ class HorizonRuns(NamedTuple):
     sphere: Ints  # (m,) whose horizon it is
     arcs: PlaneArcs  # (m,) the whole runs
     closed: Bools  # (m,) whole turns
-    before: Ints  # (m,) the nearer sphere under whose horizon the run comes out at its start, −1 if none
-    after: Ints  # (m,) the same at its end
+    before: Ints  # (m,) the sphere under whose horizon, or out of whose ball, the run comes at its start; −1 if closed
+    after: Ints  # (m,) that under or into which it goes at its end
+    horizons: PlaneArcs  # (n,) the images of the horizons of all spheres
     start: Ints  # (m + 1,) CSR offsets of the samples
     t: Floats  # (s,) parameters of the samples, equally spaced, both ends included
     behind: Ints  # (s,) the sphere seen just outside each sample, or BACKGROUND
@@ -51,8 +53,9 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     arcs = arcs._replace(sweep=np.add.reduceat(view_map.arcs.sweep[row], first) if len(first) else arcs.sweep)
     sphere = view_map.curves.first[curve]
     closed = origin[first] == target[last]
-    before = _other_at(target, sphere, origin[first], sphere[first])
-    after = _other_at(origin, sphere, target[last], sphere[first])
+    before = np.where(closed, -1, _met_at(view_map, row, target, origin[first], sphere[first]))
+    after = np.where(closed, -1, _met_at(view_map, row, origin, target[last], sphere[first]))
+    horizons = images_of(view_map.horizons(), projection_of(view))
     spacing = max(SPACING, _width(arcs) / MOST)
     count = np.maximum(np.ceil(arcs.sweep * arcs.major() / spacing).astype(np.int64), 2) + 1
     start = offsets(np.repeat(np.arange(len(first)), count), len(first))
@@ -65,13 +68,24 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     t = arcs.start[owner] + offset
     page = arcs.take(owner).at(t)
     jump = _jumps(view_map, view, sphere[first][owner], behind, page)
-    return HorizonRuns(sphere[first], arcs, closed, before, after, start, t, behind, spacing, jump)
+    return HorizonRuns(sphere[first], arcs, closed, before, after, horizons, start, t, behind, spacing, jump)
 
 
 def _width(arcs: PlaneArcs) -> float:
     """The larger side of the box around whole ellipses."""
     half = arcs.half_extent()
     return float(np.max(np.max(arcs.c + half, axis=0, initial=0.0) - np.min(arcs.c - half, axis=0, initial=0.0)))
+
+
+def _met_at(view_map: VisibilityMap, row: Ints, end: Ints, vertex: Ints, own: Ints) -> Ints:
+    """The sphere at which a run of ``own`` ends at each vertex (m,): that of a horizon that runs on, or of a crease."""
+    curves, curve_arcs = view_map.curves, view_map.curve_arcs
+    above = _other_at(end, curves.first[curve_arcs.curve[row]], vertex, own)
+    crease = np.flatnonzero(view_map.is_crease())
+    ends = np.concatenate([curve_arcs.origin[crease], curve_arcs.target[crease]])
+    pair = [np.tile(column[curve_arcs.curve[crease]], 2) for column in (curves.first, curves.second)]
+    entered = [_other_at(ends, sphere, vertex, own) for sphere in pair]
+    return np.where(above >= 0, above, np.maximum(*entered))
 
 
 def _other_at(end: Ints, sphere: Ints, vertex: Ints, own: Ints) -> Ints:
