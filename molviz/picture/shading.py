@@ -4,6 +4,7 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.curves import Paths, PlaneArcs
+from molviz.geometry.planar_map import loop_areas
 from molviz.model.spheres import Spheres
 from molviz.picture.oklab import mix
 from molviz.picture.page import Placement
@@ -25,6 +26,7 @@ from molviz.visibility.view import View
 
 LEDGE_FROM = 1.0  # ångström: wider skirts hang from ledges only, not from lone tips
 LEDGE_WITHIN = 1.6  # ångström beyond the skirt's reach
+SPECK = 0.15  # Å²: smaller bands of light look like dirt
 RADIUS_STEP = 0.03  # of a radius: the eye tells no gradients apart that differ by less
 FOCUS = 0.55  # of the radius, how far from the middle a ball is brightest, times the light's x and y
 LEDGE_COUNT = 7  # spheres that make a ledge
@@ -72,20 +74,21 @@ def light_bands(
     spheres = view_map.spheres.take(seen_spheres(view_map))
     toward = np.array(light.direction)
     dark = [
-        (_region(spheres, shaded_sides(spheres, toward, cosine), view, placement), opacity)
+        (_region(spheres, shaded_sides(spheres, toward, cosine), view, placement, SPECK), opacity)
         for cosine, opacity in light.terminators
     ]
     bright = [
-        (_region(spheres, shaded_sides(spheres, -toward, -cosine), view, placement), opacity)
+        (_region(spheres, shaded_sides(spheres, -toward, -cosine), view, placement, SPECK), opacity)
         for cosine, opacity in light.highlights
     ]
     return _stacked(dark), _stacked(bright)
 
 
-def _region(spheres: Spheres, copies: Spheres, view: View, placement: Placement) -> Paths:
-    """The region in which copies are seen, as one shape on the page."""
+def _region(spheres: Spheres, copies: Spheres, view: View, placement: Placement, least: float = 0.0) -> Paths:
+    """The region in which copies are seen, as one shape on the page, without loops of less than ``least`` Å²."""
     view_map = seen_of_copies(spheres, copies, view)
-    chains = closed_chains(view_map.loops, np.flatnonzero(view_map.loops.face == 1))
+    large = np.abs(loop_areas(view_map.arcs, view_map.loops)) >= least
+    chains = closed_chains(view_map.loops, np.flatnonzero((view_map.loops.face == 1) & large))
     arcs: PlaneArcs = view_map.arcs.moved(placement.scale, placement.shift)
     return shapes_of(arcs, view_map.curve_arcs.curve, chains)
 
