@@ -13,6 +13,7 @@ from molviz.cli.batch import for_each
 from molviz.cli.main import TYPED
 from molviz.cli.options import Parsed, applied, eye_options, input_options, load_and_warn, page_options, shared, warn
 from molviz.cli.progress import Progress
+from molviz.cli.telling import say, tell_json
 from molviz.picture.palette import PALETTES
 from molviz.picture.style import STYLES
 from molviz.pipeline.draw import Drawing, DrawRequest, draw_request_from, suffixes
@@ -62,6 +63,7 @@ plotter_options = applied(
 @drawing_options
 @shared("fill", help="Regions filled or not (default: the style's).")
 @plotter_options
+@click.option("--json", "as_json", is_flag=True, help="The summary as one JSON object a line on standard output.")
 @input_options
 def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
     """Draw molecules as exact vector pictures.
@@ -83,6 +85,8 @@ def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     wanted, eye = input_options_from(options), view_options_from(options)
     suffix, output = suffix_of(options["output"], options["to"]), options["output"] or "-"
     refuse_shared_targets(inputs, output, suffix)
+    if options.get("as_json") and output == "-":
+        raise click.UsageError("--json and the picture cannot both go to standard output; expected -o FILE")
     if together.many and not holds_set(output, suffix):
         raise click.UsageError(f"{suffix} holds one picture; {ONE_EACH}")
 
@@ -98,7 +102,7 @@ def drawn_by(source: str) -> str:
     kept: list[str] = []
     for before, word in zip(["", *typed], typed, strict=False):
         named = word.partition("=")[0]
-        if before not in PLACES and named not in (*PLACES, "--quiet", "--strict"):
+        if before not in PLACES and named not in (*PLACES, "--quiet", "--strict", "--json"):
             kept.append(word)
     inputs = click.get_current_context().params.get("inputs", ())
     options = [word for word in kept[1:] if word not in inputs]
@@ -107,8 +111,15 @@ def drawn_by(source: str) -> str:
 
 def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str) -> None:
     """Raise UsageError where one input's drawing would overwrite another's."""
-    if len({target_of(source, output, suffix) for source in inputs}) < len(inputs):
-        raise click.UsageError("several inputs need several outputs: -o FOLDER/ or -o 'FOLDER/{stem}.svg'")
+    drawn_from: dict[str, str] = {}
+    for source in inputs:
+        target = target_of(source, output, suffix)
+        if target in drawn_from and target != output:
+            both = f"{drawn_from[target]} and {source}"
+            raise click.UsageError(f"{both} would both be drawn to {target}; expected inputs of different names")
+        if target in drawn_from:
+            raise click.UsageError("several inputs need several outputs: -o FOLDER/ or -o 'FOLDER/{stem}.svg'")
+        drawn_from[target] = source
 
 
 def _draw_one(
@@ -135,8 +146,11 @@ def _draw_one(
             size += len(data)
     finally:
         progress.close()
-    if not options["quiet"]:
-        click.echo(_summary(source, target, drawing, size, time.monotonic() - began), err=True)
+    seconds = time.monotonic() - began
+    if options.get("as_json"):
+        tell_json(_summary_as_data(source, target, drawing, size, seconds))
+    elif not options["quiet"]:
+        say(_summary(source, target, drawing, size, seconds))
 
 
 def files_of(
@@ -154,6 +168,15 @@ def _summary(source: str, target: str, drawing: Drawing | DrawingSet, size: int,
         f"{source} -> {target}: {pictures}{drawing.atoms_read} atoms read, {drawing.atoms_drawn} drawn, "
         f"{drawing.visible} visible, {drawing.arcs} arcs, {size} bytes, {seconds:.2f} s"
     )
+
+
+def _summary_as_data(
+    source: str, target: str, drawing: Drawing | DrawingSet, size: int, seconds: float
+) -> dict[str, Any]:
+    return {
+        "file": source, "output": target, "atoms": drawing.atoms_read, "drawn": drawing.atoms_drawn,
+        "visible": drawing.visible, "arcs": drawing.arcs, "bytes": size, "seconds": round(seconds, 3),
+    }  # fmt: skip
 
 
 def suffix_of(output: str | None, to: str | None) -> str:

@@ -1,6 +1,5 @@
 """``molviz hidden-lines``: exact visible arcs, and nothing but lines unless asked for."""
 
-import json
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -20,6 +19,7 @@ from molviz.cli.draw import (
 )
 from molviz.cli.options import POSITIVE, applied, input_options, load_and_warn
 from molviz.cli.progress import Progress
+from molviz.cli.telling import say, tell_json
 from molviz.picture.disc_picture import WIDTH, DiscLook
 from molviz.pipeline.hidden_discs import (
     HiddenDiscs,
@@ -116,9 +116,9 @@ def _discs(target: str | None, scene_of: Callable[[], HiddenDiscs], options: dic
         progress.close()
         save(target, data)
         if not options["quiet"]:
-            click.echo(_summary(target, scene, len(data), time.monotonic() - began), err=True)
+            say(_summary(target, scene, len(data), time.monotonic() - began))
     if options["as_json"]:
-        click.echo(json.dumps(scene.statistics()))
+        tell_json(scene.statistics())
     elif not target:
         click.echo(statistics_table(scene.statistics()))
 

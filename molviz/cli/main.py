@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from molviz.cli import failures
+from molviz.cli.telling import say
 from molviz.errors import InputError
 
 COMMANDS = {  # name → module:object, imported when first used
@@ -24,7 +25,7 @@ TYPED = "molviz.typed"  # where a context holds the words after the program's na
 
 
 class Commands(click.Group):
-    """Commands are imported one by one, errors in the input end in one line and exit status 1, molviz's own in 70."""
+    """Commands are imported one by one; errors end in one line and exit status 1 (input), 2 (options) or 70."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of all commands."""
@@ -48,14 +49,15 @@ class Commands(click.Group):
         try:
             return super().main(*args, **kwargs)
         except InputError as wrong:
-            click.echo(f"molviz: {wrong}", err=True)
+            say(f"molviz: {wrong}")
+            sys.exit(failures.status_of(wrong))
         except OSError as wrong:
-            click.echo(f"molviz: standard output cannot be written: {wrong.strerror}", err=True)
+            say(f"molviz: standard output cannot be written: {wrong.strerror}")
             _forget_output()
         except MemoryError:
-            click.echo("molviz: not enough memory for this input", err=True)
+            say("molviz: not enough memory for this input")
         except Exception as failure:
-            click.echo(failures.line_about(failure), err=True)
+            say(failures.line_about(failure))
             sys.exit(failures.STATUS)
         sys.exit(1)
 

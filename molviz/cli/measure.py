@@ -1,7 +1,6 @@
 """``molviz measure``: options become values, measurements become a table, CSV or JSON."""
 
 import csv
-import json
 import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
@@ -12,6 +11,7 @@ import click
 from molviz.cli.batch import for_each
 from molviz.cli.options import input_options, load_and_warn
 from molviz.cli.progress import Progress
+from molviz.cli.telling import tell_json
 from molviz.model.radii import TABLES
 from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.measure import PER, Measurement, Part, measurement
@@ -63,7 +63,7 @@ def measure_command(
 def _tell(measured: list[Measurement], wanted: InputOptions, per: str | None, as_json: bool, as_csv: bool) -> None:
     if as_json:
         results = [_totals(one, wanted) | {"per": [_part(part) for part in one.parts]} for one in measured]
-        click.echo(json.dumps({"results": results}, ensure_ascii=False))
+        tell_json({"results": results})
     elif as_csv:
         _write_csv(_rows(measured, wanted, per))
     elif measured:

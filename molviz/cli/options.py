@@ -7,6 +7,7 @@ from typing import Any, TypeAlias
 
 import click
 
+from molviz.cli.telling import say
 from molviz.errors import InputError
 from molviz.pipeline import door
 from molviz.pipeline.inputs import FORMATS, InputOptions, Loaded, load
@@ -122,7 +123,7 @@ def warn(warnings: Iterable[str], quiet: bool, strict: bool) -> None:
         if strict:
             raise InputError(warning)
         if not quiet:
-            click.echo(f"molviz: {warning}", err=True)
+            say(f"molviz: {warning}")
 
 
 def _standard_input() -> bytes:

@@ -10,16 +10,18 @@ Values are parted by blanks or commas; ``*`` and ``?`` stand for any letters and
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from fnmatch import fnmatchcase
 from typing import NamedTuple
 
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints, Strings
-from molviz.errors import InputError
+from molviz.errors import OptionError, expected_instead
 from molviz.model.molecule import Molecule
 from molviz.model.residues import AMINO_ACIDS, NUCLEIC_BACKBONE, NUCLEOTIDES, PROTEIN_BACKBONE, WATERS
+
+NO_ATOMS = Molecule.of("", np.empty((0, 3)), np.empty(0, dtype=str))
 
 
 def is_water(molecule: Molecule) -> Bools:
@@ -35,13 +37,18 @@ def is_hydrogen(molecule: Molecule) -> Bools:
 def select(molecule: Molecule, expression: str) -> Bools:
     """Return which atoms (n,) the expression means.
 
-    Raises InputError, naming the place in the expression and what was expected there.
+    Raises OptionError, naming the place in the expression and what was expected there.
     """
     parser = _Parser(molecule, expression)
     chosen = parser.expression()
     if parser.token.text:
         raise parser.error("'and', 'or' or the end")
     return chosen
+
+
+def check_selection(expression: str) -> None:
+    """Raise OptionError, as ``select`` does, for an expression that no molecule has a meaning for."""
+    select(NO_ATOMS, expression)
 
 
 # ---- what the words mean
@@ -170,10 +177,11 @@ class _Parser:
     def word(self) -> str:
         return "" if self.token.quoted else self.token.text.lower()
 
-    def error(self, expected: str) -> InputError:
-        """Return the exception that says what was expected at the current token."""
+    def error(self, expected: str, known: Iterable[str] = ()) -> OptionError:
+        """Return the exception that says what was expected at the current token, or which known word was meant."""
         shown = repr(self.token.text) if self.token.text else "the end"
-        return InputError(f"selection {self.text!r}, position {self.token.start + 1}: {shown}; expected {expected}")
+        instead = expected_instead(self.token.text, known, expected)
+        return OptionError(f"selection {self.text!r}, position {self.token.start + 1}: {shown}; {instead}")
 
     def take(self) -> str:
         """Consume the current token and return its text."""
@@ -208,7 +216,7 @@ class _Parser:
         if word == "(":
             return self.parenthesis()
         if word not in _STARTS:
-            raise self.error(f"'(' or one of {', '.join(sorted(_STARTS))}")
+            raise self.error(f"'(' or one of {', '.join(sorted(_STARTS))}", sorted(_STARTS))
         self.take()
         if word == "not":
             return ~self.simple()

@@ -14,7 +14,7 @@ from molviz.errors import InputError
 from molviz.geometry.measure import measure_spheres
 from molviz.model.entities import entities_of
 from molviz.model.molecule import Molecule
-from molviz.model.selection import select
+from molviz.model.selection import NO_ATOMS, check_selection, select
 from molviz.picture.compose import alike_with, picture_of_map, picture_of_pieces
 from molviz.picture.options import Alike, DrawOptions, Labelled, Painted, Subject
 from molviz.picture.palette import load_palette
@@ -173,8 +173,12 @@ def draw_request_from(options: Options) -> DrawRequest:
         title=given(options, "title", parse_text) or "",
         scale_bar=given(options, "scale_bar", parse_scale_bar),
     )
-    colors = given(options, "color", parse_all_painted) or ()
-    return DrawRequest(look, colors, given(options, "label", parse_labels) or ())
+    colors, labels = given(options, "color", parse_all_painted) or (), given(options, "label", parse_labels) or ()
+    for selection, _ in colors:
+        check_selection(selection)
+    for label in labels:
+        labelled_of(NO_ATOMS, label)
+    return DrawRequest(look, colors, labels)
 
 
 def labelled_of(molecule: Molecule, text: str) -> Labelled:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools
-from molviz.errors import InputError
+from molviz.errors import InputError, OptionError
 from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT
 from molviz.model.selection import is_hydrogen, is_water, select
@@ -66,7 +66,7 @@ def only_model(loaded: list[Loaded]) -> Loaded:
     """Return the one model that a picture shows; raises InputError where there are more."""
     if len(loaded) > 1:
         count = len(loaded)
-        raise InputError(f"has {count} models, and a picture shows one; expected --model NUMBER", loaded[0].source)
+        raise OptionError(f"has {count} models, and a picture shows one; expected --model NUMBER", loaded[0].source)
     return loaded[0]
 
 
@@ -78,7 +78,7 @@ def _model_numbers(reading: Reading, model: str) -> list[int]:
     last = last if dash else first
     if first.isdecimal() and last.isdecimal() and 1 <= int(first) <= int(last) <= count:
         return list(range(int(first), int(last) + 1))
-    raise InputError(f"no model or frame {model!r}; the file has {count}, numbered from 1", reading.source)
+    raise OptionError(f"no model or frame {model!r}; the file has {count}, numbered from 1", reading.source)
 
 
 def means_several(model: str) -> bool:

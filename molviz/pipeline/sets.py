@@ -8,7 +8,7 @@ from pathlib import PurePath
 
 import numpy as np
 
-from molviz.errors import InputError
+from molviz.errors import InputError, OptionError
 from molviz.model.entities import entities_of
 from molviz.picture.options import Alike, Depth
 from molviz.picture.page import Margins
@@ -146,7 +146,7 @@ def set_options_from(options: Options) -> SetOptions:
     """Return which pictures are wanted; raises InputError naming the option that is wrong."""
     models, turntable = means_several(str(options["model"])), given(options, "turntable", parse_count)
     if models and turntable is not None:
-        raise InputError("turntable: it turns one model; expected a single model")
+        raise OptionError("turntable: it turns one model; expected a single model")
     stereo = chosen(options, "stereo") if options["stereo"] is not None else None
     return SetOptions(models, turntable, stereo)
 
