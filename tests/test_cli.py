@@ -132,7 +132,7 @@ def test_names_of_outputs_come_from_the_inputs(tmp_path: Path) -> None:
 def test_files_have_the_usual_permissions_or_keep_theirs(tmp_path: Path) -> None:
     before = os.umask(0o027)
     try:
-        save(str(tmp_path / "a" / "new.svg"), b"1")
+        save(str(tmp_path / "a" / "new.svg"), b"1", make_folder=True)
         (tmp_path / "old.svg").touch()
         (tmp_path / "old.svg").chmod(0o604)
         save(str(tmp_path / "old.svg"), b"2")

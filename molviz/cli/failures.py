@@ -3,6 +3,7 @@
 from molviz.errors import InputError, InternalError, OptionError
 
 STATUS = 70  # EX_SOFTWARE of sysexits.h: failures of molviz itself
+INTERRUPTED, TERMINATED = 130, 143  # 128 and the number of the signal, as shells have it
 
 
 def status_of(wrong: InputError) -> int:

@@ -1,8 +1,13 @@
 """The group of all commands, and what a user sees when something is wrong."""
 
 import importlib
+import io
 import os
+import signal
 import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import click
@@ -47,7 +52,15 @@ class Commands(click.Group):
     def main(self, *args: Any, **kwargs: Any) -> Any:
         """Run; no traceback reaches the user."""
         try:
-            return super().main(*args, **kwargs)
+            with _ended_by_sigterm():
+                sys.exit(super().main(*args, **{**kwargs, "standalone_mode": False}))
+        except click.ClickException as wrong:
+            shown = io.StringIO()
+            wrong.show(shown)
+            say(*shown.getvalue().rstrip("\n").split("\n"))
+            sys.exit(wrong.exit_code)
+        except click.Abort:
+            sys.exit(failures.INTERRUPTED)
         except InputError as wrong:
             say(f"molviz: {wrong}")
             sys.exit(failures.status_of(wrong))
@@ -60,6 +73,23 @@ class Commands(click.Group):
             say(failures.line_about(failure))
             sys.exit(failures.STATUS)
         sys.exit(1)
+
+
+@contextmanager
+def _ended_by_sigterm() -> Iterator[None]:
+    """Let SIGTERM end the process as Ctrl-C does, by an exception on whose way files that are half written vanish."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # signals are none of this thread's business
+        return
+
+    def end(number: int, frame: object) -> None:
+        sys.exit(failures.TERMINATED)
+
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _forget_output() -> None:

@@ -19,9 +19,9 @@ def _escaped(letter: str) -> str:
     return letter.encode("unicode_escape").decode("ascii") if obeyed or 0xD800 <= code < 0xE000 else letter
 
 
-def say(message: str) -> None:
-    """Write one line to standard error."""
-    click.echo(visible(message), err=True)
+def say(*lines: str) -> None:
+    """Write lines to standard error."""
+    click.echo("\n".join(map(visible, lines)), err=True)
 
 
 def tell_json(result: dict[str, Any]) -> None:

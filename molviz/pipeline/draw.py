@@ -21,7 +21,7 @@ from molviz.picture.palette import load_palette
 from molviz.picture.picture import Color, Picture
 from molviz.picture.style import load_style
 from molviz.pipeline.inputs import Loaded
-from molviz.pipeline.outputs import encoded, save
+from molviz.pipeline.outputs import encoded, refuse_inputs, save
 from molviz.pipeline.values import (
     Options,
     chosen,
@@ -79,6 +79,11 @@ class Drawing:
     subject: Subject  # the molecule, and what there is to tell of it
 
     @property
+    def source(self) -> str:
+        """The name of the file that is drawn, or what stands for one."""
+        return self._loaded.source
+
+    @property
     def notes(self) -> tuple[str, ...]:
         """What is odd about the picture: colours that stand for more than one chain."""
         chains = len(np.unique(self._loaded.molecule.chain))
@@ -123,6 +128,7 @@ class Drawing:
         suffix = PurePath(path).suffix
         if suffix.lower() not in suffixes():
             raise InputError(f"path: no format {suffix!r}; expected one of {' '.join(suffixes())}")
+        refuse_inputs(os.fspath(path), [self.source])
         save(os.fspath(path), self.to(suffix, plotter, paper))
 
     def picture(self, suffix: str) -> Picture:
