@@ -123,6 +123,7 @@ _COMPARISONS: dict[str, Callable[[Floats, float], Bools]] = {
 }
 _RANGE = re.compile(r"(-?\d+)[-:](-?\d+)$")
 _LEADING_NUMBER = re.compile(r"-?\d+")
+FARTHEST = 1e100  # ångström: everything is nearer, and the square is a number
 _DEPTH = 100  # far from what the stack of the interpreter bears
 _STARTS = {*_PROPERTIES, *_TEXTS, *_RANGES, *_NUMBERS, "not", "within"}
 _RESERVED = {"and", "or", "of", *_STARTS, ""}
@@ -137,7 +138,7 @@ def _in_ranges(text: str, values: list[str]) -> bool:
     leading = _LEADING_NUMBER.match(text)
     for value in values:
         span = _RANGE.match(value)
-        if text == value or (span and leading and int(span[1]) <= int(leading[0]) <= int(span[2])):
+        if text == value or (span and leading and float(span[1]) <= float(leading[0]) <= float(span[2])):
             return True
     return False
 
@@ -275,6 +276,12 @@ class _Parser:
         return _within(self.molecule.position, np.flatnonzero(self.simple()), distance)
 
 
+def _slabs(column: Floats, side: float) -> Ints:
+    """Return the slab of width ``side`` of every number (n,), from 1; rows of empty slabs are numbered as one."""
+    slabs, which = np.unique(np.floor(column / side), return_inverse=True)
+    return np.cumsum(np.append(1, np.minimum(np.diff(slabs), 2))).astype(np.int64)[which]
+
+
 def _within(position: Floats, target: Ints, distance: float) -> Bools:
     """Return which points (n,) are at most ``distance`` from one of the targets.
 
@@ -283,7 +290,8 @@ def _within(position: Floats, target: Ints, distance: float) -> Bools:
     near = np.zeros(len(position), dtype=bool)
     if not len(target) or distance < 0:
         return near
-    cell = np.floor((position - position.min(axis=0)) / max(distance, 1e-3)).astype(np.int64) + 1
+    distance = min(distance, FARTHEST)
+    cell = np.column_stack([_slabs(column, max(distance, 1e-3)) for column in position.T])
     stride = np.cumprod([1, *(cell.max(axis=0) + 2)[:2]])
     order = target[np.argsort(cell[target] @ stride)]
     key = cell[order] @ stride

@@ -68,7 +68,7 @@ def load_palette(name: str) -> Palette:
 
 def _table(path: Path, source: str) -> dict[str, Any]:
     try:
-        return toml.loads(path.read_text(encoding="utf-8"))
+        return toml.read(path)
     except OSError:
         expected = expected_instead(source, PALETTES, f"one of {', '.join(PALETTES)} or a TOML file")
         raise OptionError(f"no such palette or file; {expected}", source) from None

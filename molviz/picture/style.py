@@ -170,14 +170,12 @@ def _whole(name: str, depth: int) -> Table:
 def _read(name: str) -> Table:
     path = FOLDER / f"{name}.toml" if name in STYLES else Path(name)
     try:
-        return toml.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as wrong:
-        if name in STYLES or isinstance(wrong, toml.TOMLDecodeError | UnicodeDecodeError):
-            raise OptionError(f"not a style: {wrong}", name) from None
+        return toml.read(path)
+    except ValueError as wrong:
+        raise OptionError(f"not a style: {wrong}", name) from None
+    except OSError:
         expected = expected_instead(name, STYLES, f"one of {', '.join(STYLES)} or a TOML file")
         raise OptionError(f"no such style or file; {expected}", name) from None
-    except RecursionError:
-        raise OptionError("not a style: tables in tables without end", name) from None
 
 
 def _refuse_unknown(table: Table, known: Table, where: str, name: str) -> None:

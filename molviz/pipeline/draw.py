@@ -20,7 +20,7 @@ from molviz.picture.options import Alike, DrawOptions, Labelled, Painted, Subjec
 from molviz.picture.palette import load_palette
 from molviz.picture.picture import Color, Picture
 from molviz.picture.style import load_style
-from molviz.pipeline.inputs import Loaded
+from molviz.pipeline.inputs import Loaded, refuse_unresolved
 from molviz.pipeline.outputs import encoded, refuse_inputs, save
 from molviz.pipeline.values import (
     Options,
@@ -214,6 +214,7 @@ def drawings_of(
     loaded: Loaded, request: DrawRequest, views: Sequence[View], method: str = "visible", check: bool = False
 ) -> list[Drawing]:
     """Return one model drawn from each view; what no view changes is computed once. As ``drawing_of`` otherwise."""
+    refuse_unresolved(loaded)
     scene = Scene(loaded.spheres, only=views[0] if len(views) == 1 else None)
     options = request.options.settled(entities_of(loaded.molecule), method == "painter")
     subject = subject_of(loaded, request, options)

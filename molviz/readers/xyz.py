@@ -17,6 +17,8 @@ from molviz.readers.source import note
 
 _PROPERTIES = re.compile(rb"(?:^|\s)properties=(?:\"([^\"]*)\"|(\S+))", re.IGNORECASE)
 _COUNT = re.compile(rb"\s*[+-]?\d{1,18}\s*")
+_REPEAT = re.compile(rb"[1-9]\d{0,8}")
+_REPEATED = {b"species": b"1", b"z": b"1", b"pos": b"3"}  # how many columns these have
 _TYPES = {b"S", b"R", b"I", b"L"}
 
 
@@ -159,7 +161,7 @@ def _stated(properties: bytes) -> Columns | None:
     words = properties.split(b":")
     start, place = 0, dict[bytes, int]()
     for name, kind, repeat in zip(words[::3], words[1::3], words[2::3], strict=False):
-        if kind not in _TYPES or not repeat.isdigit() or repeat == b"0":
+        if kind not in _TYPES or not _REPEAT.fullmatch(repeat) or _REPEATED.get(name.lower(), repeat) != repeat:
             return None
         place[name.lower()] = start
         start += int(repeat)

@@ -97,14 +97,20 @@ def _by_atom(molecule: Molecule, atoms: Mapping[tuple[str, str], float]) -> Floa
 
 def _toml(path: Path) -> dict[str, Any]:
     try:
-        return toml.loads(path.read_text(encoding="utf-8"))
-    except (toml.TOMLDecodeError, UnicodeDecodeError) as error:
+        return toml.read(path)
+    except ValueError as error:
         raise OptionError(f"no radii table: {error}; expected TOML with [elements]", str(path)) from error
+    except OSError as error:
+        raise OptionError(f"cannot be read: {error.strerror}; expected a table of radii", str(path)) from error
 
 
 def _two_columns(path: Path) -> dict[str, Any]:
     elements = {}
-    for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), start=1):
+    try:
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError as error:
+        raise OptionError(f"cannot be read: {error.strerror}; expected a table of radii", str(path)) from error
+    for number, line in enumerate(lines, start=1):
         words = line.partition("#")[0].split()
         if not words:
             continue
