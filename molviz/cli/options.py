@@ -86,6 +86,7 @@ input_options = applied(
     shared("scale_radii", type=POSITIVE, metavar="X", help="Multiply all radii."),
     shared("probe", type=NOT_NEGATIVE, metavar="R", help="Add to all radii, in Å."),
     click.option("--format", "format_", type=click.Choice(FORMATS), help="Input format, where - is read."),
+    click.option("--unpack-all", is_flag=True, help="Archives too that hold far more than molecules do."),
     click.option("--quiet", is_flag=True, help="No summary line and no warnings."),
     click.option("--strict", is_flag=True, help="Warnings become errors."),
 )

@@ -35,6 +35,7 @@ class InputOptions:
     scale_radii: float = 1.0
     probe: float = 0.0
     format: str | None = None
+    unpack_all: bool = False  # archives however much they hold
 
 
 class Loaded(NamedTuple):
@@ -56,7 +57,7 @@ def load(source: str, wanted: InputOptions, data: bytes | None = None) -> list[L
 
     Raises InputError for what cannot be read, for a model or assembly that is not there, and where nothing is left.
     """
-    return loaded_from(read(source, data, wanted.format), wanted)
+    return loaded_from(read(source, data, wanted.format, wanted.unpack_all), wanted)
 
 
 def loaded_from(reading: Reading, wanted: InputOptions) -> list[Loaded]:

@@ -194,6 +194,7 @@ def input_options_from(options: Options) -> InputOptions:
         scale_radii=given(options, "scale_radii", parse_positive),
         probe=given(options, "probe", parse_not_negative),
         format=options.get("format_"),
+        unpack_all=bool(options.get("unpack_all")),
     )
 
 
