@@ -1,4 +1,6 @@
-"""What can go wrong: with a user's data, and with molviz itself."""
+"""What can go wrong: with a user's data, with what they ask for, and with molviz itself."""
+
+from collections.abc import Iterable
 
 
 class InputError(ValueError):
@@ -12,8 +14,20 @@ class InputError(ValueError):
         super().__init__(f"{where} {message}" if where else message)
 
 
+class OptionError(InputError):
+    """An option that could not be used, whatever the input: a selection, a style, a palette, radii, a model."""
+
+
 class InternalError(Exception):
     """A failure of molviz, whatever the input was."""
 
     def __init__(self, message: str) -> None:
         super().__init__(f"{message}; this is a failure of molviz: please report it together with the input")
+
+
+def expected_instead(wrong: str, known: Iterable[str], otherwise: str) -> str:
+    """Return what a message ends with: the word that was meant, if one of the known is near, else what is expected."""
+    import difflib  # here: importing it takes as long as reading a small file
+
+    hint = difflib.get_close_matches(wrong.lower(), list(known), 1)
+    return f"did you mean {hint[0]!r}?" if hint else f"expected {otherwise}"

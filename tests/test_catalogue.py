@@ -64,4 +64,4 @@ def test_what_is_shown_is_the_file_and_can_be_copied(name: str, tmp_path: Path) 
 )
 def test_unknown_names_are_answered(name: str, answer: str) -> None:
     result = CliRunner().invoke(main, ["styles", "--show", name])
-    assert result.exit_code == 1 and result.stderr.startswith("molviz: no style or palette") and answer in result.stderr
+    assert result.exit_code == 2 and result.stderr.startswith("molviz: no style or palette") and answer in result.stderr

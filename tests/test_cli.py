@@ -132,7 +132,7 @@ def test_names_of_outputs_come_from_the_inputs(tmp_path: Path) -> None:
 def test_files_have_the_usual_permissions_or_keep_theirs(tmp_path: Path) -> None:
     before = os.umask(0o027)
     try:
-        save(str(tmp_path / "a" / "new.svg"), b"1")
+        save(str(tmp_path / "a" / "new.svg"), b"1", make_folder=True)
         (tmp_path / "old.svg").touch()
         (tmp_path / "old.svg").chmod(0o604)
         save(str(tmp_path / "old.svg"), b"2")
@@ -259,13 +259,13 @@ def test_a_style_that_is_none_is_told_with_its_name(tmp_path: Path, text: str) -
     style = tmp_path / "mine.toml"
     style.write_text(text, encoding="utf-8")
     result = run("draw", CAFFEINE, "-o", str(tmp_path / "x.svg"), "--style", str(style))
-    assert result.exit_code == 1
+    assert result.exit_code == 2
     assert result.stderr.startswith(f"molviz: {style}: not a style: ")
 
 
 def test_a_model_number_in_other_digits_is_no_number(tmp_path: Path) -> None:
     result = run("draw", CAFFEINE, "-o", str(tmp_path / "x.svg"), "--model", "²")
-    assert result.exit_code == 1 and "no model or frame '²'" in result.stderr
+    assert result.exit_code == 2 and "no model or frame '²'" in result.stderr
 
 
 def test_discs_of_several_inputs_do_not_overwrite_each_other(tmp_path: Path) -> None:
@@ -278,7 +278,7 @@ def test_discs_show_one_model_and_json_is_of_discs(tmp_path: Path) -> None:
     two = tmp_path / "two.xyz"
     two.write_text("1\n\nC 0 0 0\n" * 2, encoding="utf-8")
     result = run("hidden-lines", str(two), "--as", "discs", "--model", "all", "--json")
-    assert result.exit_code == 1 and "expected --model NUMBER" in result.stderr
+    assert result.exit_code == 2 and "expected --model NUMBER" in result.stderr
     assert run("hidden-lines", CAFFEINE, "--json", "-o", str(tmp_path / "x.svg")).exit_code == 2
 
 

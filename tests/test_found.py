@@ -2,7 +2,6 @@
 
 import re
 import warnings
-from collections.abc import Iterator
 from itertools import product
 from pathlib import Path
 
@@ -29,36 +28,11 @@ COMMANDS = {
     "measure": ["measure"],
     "info": ["info"],
 }
-EVERY = " ".join(word.replace(" ", "_") for word in COMMANDS)
-DRAWINGS = "map map_of_all_axes painter swollen"
-DIGITS = "ValueError of int(): over 4,300 digits"
-OVERFLOW = "RuntimeWarning: overflow; then a grid of too many cells, or areas of inf and volumes of nan"
-SQUARES = "RuntimeWarning: overflow in squares and products of coordinates; then nothing seems to be seen"
-KNOWN = {  # what still goes wrong, with which commands
-    "atomic_number.xyz": (EVERY, DIGITS),
-    "beside_a_giant.xyzr": (f"{DRAWINGS} measure info", OVERFLOW),
-    "column_count.xyz": (EVERY, DIGITS),
-    "far_atom.xyzr": (DRAWINGS, "ValueError: culling leaves no sphere, and the least of none is asked for"),
-    "giant.xyzr": (f"{DRAWINGS} measure info", OVERFLOW),
-    "minute.xyzr": (f"{DRAWINGS} eye".replace(" swollen", ""), "ValueError: squares of radii are 0, nothing is seen"),
-    "one_number_a_place.xyz": (EVERY, "ValueError: cannot reshape array of size 1 into shape (3)"),
-    "opposite_ends.xyzr": (f"{DRAWINGS} eye info", SQUARES),
-    "overflow.pdb": (f"{DRAWINGS} eye info", SQUARES),
-    "overflow_among_others.pdb": (f"{DRAWINGS} eye", SQUARES),
-}
 PICTURES = ["far_pair", "four_decades", "micro", "nearly_one", "nearly_one_and_far", "touching_row"]
 TWINS = ("nearly_one", "nearly_one_and_far")  # rows 0 and 1 are nearer to each other than drawings displace balls
 
 
-def cases() -> Iterator[object]:
-    for name in FILES:
-        commands, reason = KNOWN.get(name, ("", ""))
-        for command in COMMANDS:
-            fails = command.replace(" ", "_") in commands.split()
-            yield pytest.param(name, command, marks=pytest.mark.xfail(strict=True, reason=reason) if fails else ())
-
-
-@pytest.mark.parametrize(("name", "command"), [*cases()])
+@pytest.mark.parametrize(("name", "command"), [*product(FILES, COMMANDS)])
 def test_an_answer_or_one_line_of_explanation(
     name: str, command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -80,14 +54,7 @@ def one_row(label: np.ndarray) -> np.ndarray:
     return np.where(label == 1, 0, label)
 
 
-def pictures() -> Iterator[object]:
-    reason = "faces thinner than 0.004 Å are slivers, whatever the size of the balls: nothing is drawn"
-    for stem, method in product(PICTURES, ["visible", "painter"]):
-        fails = (stem, method) == ("micro", "visible")
-        yield pytest.param(stem, method, marks=pytest.mark.xfail(strict=True, reason=reason) if fails else ())
-
-
-@pytest.mark.parametrize(("stem", "method"), [*pictures()])
+@pytest.mark.parametrize(("stem", "method"), [*product(PICTURES, ["visible", "painter"])])
 def test_pictures_of_odd_inputs_equal_zbuffers(stem: str, method: str) -> None:
     loaded = load(str(FOUND / f"{stem}.xyzr"), InputOptions())[0]
     svg, seen, scale = mask(loaded, ViewOptions("file"), ".svg", method)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 import click
 
 from molviz.cli import failures
+from molviz.cli.telling import say
 from molviz.errors import InputError
 
 PASSED_ON = (click.exceptions.Exit, click.ClickException, click.Abort, OSError, MemoryError)
@@ -18,12 +19,12 @@ def for_each(sources: Sequence[str], do: Callable[[str], None]) -> None:
         try:
             do(source)
         except InputError as wrong:
-            click.echo(f"molviz: {wrong}", err=True)
-            status = max(status, 1)
+            say(f"molviz: {wrong}")
+            status = max(status, failures.status_of(wrong))
         except PASSED_ON:
             raise
         except Exception as failure:
-            click.echo(f"{failures.line_about(failure)} ({source})", err=True)
+            say(f"{failures.line_about(failure)} ({source})")
             status = failures.STATUS
     if status:
         sys.exit(status)

@@ -1,10 +1,11 @@
 """``molviz draw``: pictures of molecules."""
 
+import os
 import shlex
 import time
 from collections.abc import Iterable
 from dataclasses import replace
-from pathlib import Path, PurePath
+from pathlib import PurePath
 from typing import Any
 
 import click
@@ -13,11 +14,12 @@ from molviz.cli.batch import for_each
 from molviz.cli.main import TYPED
 from molviz.cli.options import Parsed, applied, eye_options, input_options, load_and_warn, page_options, shared, warn
 from molviz.cli.progress import Progress
+from molviz.cli.telling import say, tell_json
 from molviz.picture.palette import PALETTES
 from molviz.picture.style import STYLES
 from molviz.pipeline.draw import Drawing, DrawRequest, draw_request_from, suffixes
 from molviz.pipeline.inputs import InputOptions
-from molviz.pipeline.outputs import save, target_of
+from molviz.pipeline.outputs import makes_folder, refuse_inputs, save, target_of
 from molviz.pipeline.sets import ONE_EACH, DrawingSet, SetOptions, drawn, holds_set, set_options_from
 from molviz.pipeline.values import input_options_from, parse_count, parse_scale_bar, view_options_from
 from molviz.pipeline.views import ViewOptions
@@ -62,6 +64,7 @@ plotter_options = applied(
 @drawing_options
 @shared("fill", help="Regions filled or not (default: the style's).")
 @plotter_options
+@click.option("--json", "as_json", is_flag=True, help="The summary as one JSON object a line on standard output.")
 @input_options
 def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
     """Draw molecules as exact vector pictures.
@@ -82,7 +85,9 @@ def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     look, together = draw_request_from(options), set_options_from(options)
     wanted, eye = input_options_from(options), view_options_from(options)
     suffix, output = suffix_of(options["output"], options["to"]), options["output"] or "-"
-    refuse_shared_targets(inputs, output, suffix)
+    refuse_shared_targets(inputs, output, suffix, options)
+    if options.get("as_json") and output == "-":
+        raise click.UsageError("--json and the picture cannot both go to standard output; expected -o FILE")
     if together.many and not holds_set(output, suffix):
         raise click.UsageError(f"{suffix} holds one picture; {ONE_EACH}")
 
@@ -98,17 +103,31 @@ def drawn_by(source: str) -> str:
     kept: list[str] = []
     for before, word in zip(["", *typed], typed, strict=False):
         named = word.partition("=")[0]
-        if before not in PLACES and named not in (*PLACES, "--quiet", "--strict"):
+        if before not in PLACES and named not in (*PLACES, "--quiet", "--strict", "--json"):
             kept.append(word)
     inputs = click.get_current_context().params.get("inputs", ())
     options = [word for word in kept[1:] if word not in inputs]
     return shlex.join(["molviz", *kept[:1], PurePath(source).name, *options])
 
 
-def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str) -> None:
-    """Raise UsageError where one input's drawing would overwrite another's."""
-    if len({target_of(source, output, suffix) for source in inputs}) < len(inputs):
-        raise click.UsageError("several inputs need several outputs: -o FOLDER/ or -o 'FOLDER/{stem}.svg'")
+def read_by(options: dict[str, Any]) -> tuple[str, ...]:
+    """Return the names of all files that a command reads: its inputs, and what its options name."""
+    inputs = click.get_current_context().params.get("inputs", ())
+    return (*inputs, *(options[name] for name in ("style", "palette", "radii")))
+
+
+def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str, options: dict[str, Any]) -> None:
+    """Raise UsageError where one input's drawing would overwrite another's, or OptionError where it would an input."""
+    drawn_from: dict[str, str] = {}
+    for source in inputs:
+        target = target_of(source, output, suffix)
+        refuse_inputs(target, read_by(options))
+        if target in drawn_from and target != output:
+            both = f"{drawn_from[target]} and {source}"
+            raise click.UsageError(f"{both} would both be drawn to {target}; expected inputs of different names")
+        if target in drawn_from:
+            raise click.UsageError("several inputs need several outputs: -o FOLDER/ or -o 'FOLDER/{stem}.svg'")
+        drawn_from[target] = source
 
 
 def _draw_one(
@@ -131,12 +150,16 @@ def _draw_one(
         warn(drawing.notes, options["quiet"], options["strict"])
         progress("writing")
         for path, data in files_of(drawing, target, suffix, options["plotter"], options["paper"]):
-            save(path, data)
+            refuse_inputs(path, read_by(options))
+            save(path, data, makes_folder(options["output"] or ""))
             size += len(data)
     finally:
         progress.close()
-    if not options["quiet"]:
-        click.echo(_summary(source, target, drawing, size, time.monotonic() - began), err=True)
+    seconds = time.monotonic() - began
+    if options.get("as_json"):
+        tell_json(_summary_as_data(source, target, drawing, size, seconds))
+    elif not options["quiet"]:
+        say(_summary(source, target, drawing, size, seconds))
 
 
 def files_of(
@@ -156,10 +179,19 @@ def _summary(source: str, target: str, drawing: Drawing | DrawingSet, size: int,
     )
 
 
+def _summary_as_data(
+    source: str, target: str, drawing: Drawing | DrawingSet, size: int, seconds: float
+) -> dict[str, Any]:
+    return {
+        "file": source, "output": target, "atoms": drawing.atoms_read, "drawn": drawing.atoms_drawn,
+        "visible": drawing.visible, "arcs": drawing.arcs, "bytes": size, "seconds": round(seconds, 3),
+    }  # fmt: skip
+
+
 def suffix_of(output: str | None, to: str | None) -> str:
     """Return the format asked for: by --to, else by the output's suffix; SVG into a folder."""
     known = suffixes()
-    folder = bool(output) and (str(output).endswith("/") or Path(str(output)).is_dir())
+    folder = bool(output) and (str(output).endswith("/") or os.path.isdir(str(output)))  # noqa: PTH112 (Path.is_dir raises for names too long)
     usual = ".svg" if folder else PurePath(output or "").suffix
     suffix = f".{to.removeprefix('.')}" if to else usual
     if suffix.lower() in known:

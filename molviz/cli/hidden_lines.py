@@ -1,6 +1,5 @@
 """``molviz hidden-lines``: exact visible arcs, and nothing but lines unless asked for."""
 
-import json
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -20,6 +19,7 @@ from molviz.cli.draw import (
 )
 from molviz.cli.options import POSITIVE, applied, input_options, load_and_warn
 from molviz.cli.progress import Progress
+from molviz.cli.telling import say, tell_json
 from molviz.picture.disc_picture import WIDTH, DiscLook
 from molviz.pipeline.hidden_discs import (
     HiddenDiscs,
@@ -30,7 +30,7 @@ from molviz.pipeline.hidden_discs import (
     statistics_table,
 )
 from molviz.pipeline.inputs import InputOptions, only_model
-from molviz.pipeline.outputs import save, target_of
+from molviz.pipeline.outputs import makes_folder, save, target_of
 from molviz.pipeline.values import input_options_from, page_from, view_options_from
 from molviz.pipeline.views import ViewOptions
 
@@ -94,7 +94,7 @@ def _molecules_as_discs(inputs: tuple[str, ...], options: dict[str, Any]) -> Non
     wanted, eye, output = input_options_from(options), view_options_from(options), options["output"]
     suffix = suffix_of(output, options["to"]) if output else ""
     if output:
-        refuse_shared_targets(inputs, output, suffix)
+        refuse_shared_targets(inputs, output, suffix, options)
 
     def one(source: str) -> None:
         target = target_of(source, output, suffix) if output else None
@@ -114,11 +114,11 @@ def _discs(target: str | None, scene_of: Callable[[], HiddenDiscs], options: dic
         suffix = suffix_of(target, options["to"])
         data = drawn(scene, suffix, look, options["fill"] == "flat", options["plotter"], options["paper"])
         progress.close()
-        save(target, data)
+        save(target, data, makes_folder(options["output"]))
         if not options["quiet"]:
-            click.echo(_summary(target, scene, len(data), time.monotonic() - began), err=True)
+            say(_summary(target, scene, len(data), time.monotonic() - began))
     if options["as_json"]:
-        click.echo(json.dumps(scene.statistics()))
+        tell_json(scene.statistics())
     elif not target:
         click.echo(statistics_table(scene.statistics()))
 

@@ -1,12 +1,12 @@
 """``molviz info``: what was read."""
 
-import json
 from typing import Any
 
 import click
 
 from molviz.cli.batch import for_each
 from molviz.cli.options import input_options, load_and_warn
+from molviz.cli.telling import tell_json, visible
 from molviz.pipeline.info import info
 from molviz.pipeline.values import input_options_from
 
@@ -38,7 +38,7 @@ def info_command(inputs: tuple[str, ...], as_json: bool, **options: Any) -> None
         for_each(inputs, one)
     finally:
         if as_json:
-            click.echo(json.dumps({"results": results}, ensure_ascii=False))
+            tell_json({"results": results})
 
 
 def _as_text(result: dict[str, Any]) -> str:
@@ -52,4 +52,4 @@ def _as_text(result: dict[str, Any]) -> str:
         ("intersecting spheres", f"{result['max_neighbours']} at most, {result['mean_neighbours']:.2f} on average"),
         ("components", str(result["components"])),
     ]
-    return "\n".join(f"{name:<21} {text}" for name, text in rows)
+    return "\n".join(f"{visible(name):<21} {visible(text)}" for name, text in rows)

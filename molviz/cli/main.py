@@ -1,13 +1,19 @@
 """The group of all commands, and what a user sees when something is wrong."""
 
 import importlib
+import io
 import os
+import signal
 import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import click
 
 from molviz.cli import failures
+from molviz.cli.telling import say
 from molviz.errors import InputError
 
 COMMANDS = {  # name → module:object, imported when first used
@@ -24,7 +30,7 @@ TYPED = "molviz.typed"  # where a context holds the words after the program's na
 
 
 class Commands(click.Group):
-    """Commands are imported one by one, errors in the input end in one line and exit status 1, molviz's own in 70."""
+    """Commands are imported one by one; errors end in one line and exit status 1 (input), 2 (options) or 70."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of all commands."""
@@ -46,18 +52,44 @@ class Commands(click.Group):
     def main(self, *args: Any, **kwargs: Any) -> Any:
         """Run; no traceback reaches the user."""
         try:
-            return super().main(*args, **kwargs)
+            with _ended_by_sigterm():
+                sys.exit(super().main(*args, **{**kwargs, "standalone_mode": False}))
+        except click.ClickException as wrong:
+            shown = io.StringIO()
+            wrong.show(shown)
+            say(*shown.getvalue().rstrip("\n").split("\n"))
+            sys.exit(wrong.exit_code)
+        except click.Abort:
+            sys.exit(failures.INTERRUPTED)
         except InputError as wrong:
-            click.echo(f"molviz: {wrong}", err=True)
+            say(f"molviz: {wrong}")
+            sys.exit(failures.status_of(wrong))
         except OSError as wrong:
-            click.echo(f"molviz: standard output cannot be written: {wrong.strerror}", err=True)
+            say(f"molviz: standard output cannot be written: {wrong.strerror}")
             _forget_output()
         except MemoryError:
-            click.echo("molviz: not enough memory for this input", err=True)
+            say("molviz: not enough memory for this input")
         except Exception as failure:
-            click.echo(failures.line_about(failure), err=True)
+            say(failures.line_about(failure))
             sys.exit(failures.STATUS)
         sys.exit(1)
+
+
+@contextmanager
+def _ended_by_sigterm() -> Iterator[None]:
+    """Let SIGTERM end the process as Ctrl-C does, by an exception on whose way files that are half written vanish."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # signals are none of this thread's business
+        return
+
+    def end(number: int, frame: object) -> None:
+        sys.exit(failures.TERMINATED)
+
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _forget_output() -> None:

@@ -1,7 +1,6 @@
 """``molviz measure``: options become values, measurements become a table, CSV or JSON."""
 
 import csv
-import json
 import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
@@ -12,6 +11,7 @@ import click
 from molviz.cli.batch import for_each
 from molviz.cli.options import input_options, load_and_warn
 from molviz.cli.progress import Progress
+from molviz.cli.telling import tell_json, visible
 from molviz.model.radii import TABLES
 from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.measure import PER, Measurement, Part, measurement
@@ -63,7 +63,7 @@ def measure_command(
 def _tell(measured: list[Measurement], wanted: InputOptions, per: str | None, as_json: bool, as_csv: bool) -> None:
     if as_json:
         results = [_totals(one, wanted) | {"per": [_part(part) for part in one.parts]} for one in measured]
-        click.echo(json.dumps({"results": results}, ensure_ascii=False))
+        tell_json({"results": results})
     elif as_csv:
         _write_csv(_rows(measured, wanted, per))
     elif measured:
@@ -98,21 +98,21 @@ def _write_csv(rows: Iterable[Row]) -> None:
         if writer is None:
             writer = csv.DictWriter(sys.stdout, row, lineterminator="\n")
             writer.writeheader()
-        writer.writerow(row)
+        writer.writerow({name: visible(value) if isinstance(value, str) else value for name, value in row.items()})
 
 
 def _table(measured: list[Measurement], wanted: InputOptions) -> Iterator[str]:
     title = f" ({TABLES[wanted.radii]})" if wanted.radii in TABLES else ""
-    yield f"radii {wanted.radii}{title}, probe {wanted.probe:g} Å; areas in Å², volumes in Å³"
-    width = max(len(one.file) for one in measured)
+    yield f"radii {visible(wanted.radii)}{title}, probe {wanted.probe:g} Å; areas in Å², volumes in Å³"
+    width = max(len(visible(one.file)) for one in measured)
     for one in measured:
         yield (
-            f"{one.file:<{width}}  model {one.model}  {one.atoms} atoms  area {one.area:.3f}  "
+            f"{visible(one.file):<{width}}  model {one.model}  {one.atoms} atoms  area {one.area:.3f}  "
             f"volume {one.volume:.3f}{_split_text(one.area, one.exposed)}"
         )
-        longest = max((len(part.id) for part in one.parts), default=0)
+        longest = max((len(visible(part.id)) for part in one.parts), default=0)
         for part in one.parts:
-            yield f"  {part.id:<{longest}}  {part.area:12.3f}{_split_text(part.area, part.exposed)}"
+            yield f"  {visible(part.id):<{longest}}  {part.area:12.3f}{_split_text(part.area, part.exposed)}"
 
 
 def _split_text(area: float, exposed: float | None) -> str:

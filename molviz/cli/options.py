@@ -7,6 +7,7 @@ from typing import Any, TypeAlias
 
 import click
 
+from molviz.cli.telling import say
 from molviz.errors import InputError
 from molviz.pipeline import door
 from molviz.pipeline.inputs import FORMATS, InputOptions, Loaded, load
@@ -85,6 +86,7 @@ input_options = applied(
     shared("scale_radii", type=POSITIVE, metavar="X", help="Multiply all radii."),
     shared("probe", type=NOT_NEGATIVE, metavar="R", help="Add to all radii, in Å."),
     click.option("--format", "format_", type=click.Choice(FORMATS), help="Input format, where - is read."),
+    click.option("--unpack-all", is_flag=True, help="Archives too that hold far more than molecules do."),
     click.option("--quiet", is_flag=True, help="No summary line and no warnings."),
     click.option("--strict", is_flag=True, help="Warnings become errors."),
 )
@@ -122,7 +124,7 @@ def warn(warnings: Iterable[str], quiet: bool, strict: bool) -> None:
         if strict:
             raise InputError(warning)
         if not quiet:
-            click.echo(f"molviz: {warning}", err=True)
+            say(f"molviz: {warning}")
 
 
 def _standard_input() -> bytes:

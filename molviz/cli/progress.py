@@ -5,6 +5,8 @@ import time
 
 import click
 
+from molviz.cli.telling import visible
+
 PATIENCE = 2.0  # seconds before anything shows
 
 
@@ -19,7 +21,7 @@ class Progress:
         """Note that a stage begins."""
         if sys.stderr is not None and sys.stderr.isatty() and time.monotonic() - self.began > PATIENCE:
             filled = 30 * self.done // self.stages
-            click.echo(f"\r[{'#' * filled}{'-' * (30 - filled)}] {stage:<24}", err=True, nl=False)
+            click.echo(f"\r[{'#' * filled}{'-' * (30 - filled)}] {visible(stage)[:24]:<24}", err=True, nl=False)
             self.shown = True
         self.done = min(self.done + 1, self.stages)
 

@@ -1,11 +1,11 @@
 """``molviz radii``: the tables of radii and where they come from."""
 
-import json
 import textwrap
 from typing import Any
 
 import click
 
+from molviz.cli.telling import tell_json
 from molviz.pipeline.catalogue import radii_tables
 
 WIDTH = 100  # characters of a line
@@ -23,7 +23,10 @@ def radii_command(as_json: bool) -> None:
       molviz measure 4hhb.pdb --radii protor
     """
     tables = radii_tables()
-    click.echo(json.dumps({"radii": tables}, ensure_ascii=False) if as_json else "\n".join(map(_as_text, tables)))
+    if as_json:
+        tell_json({"radii": tables})
+    else:
+        click.echo("\n".join(map(_as_text, tables)))
 
 
 def _as_text(table: dict[str, Any]) -> str:

@@ -1,10 +1,10 @@
 """``molviz styles``: what pictures can look like."""
 
-import json
 from typing import Any
 
 import click
 
+from molviz.cli.telling import tell_json
 from molviz.pipeline import catalogue
 
 
@@ -25,11 +25,14 @@ def styles_command(show: str | None, as_json: bool) -> None:
     """
     if show is not None:
         shown = catalogue.text_of(show)
-        click.echo(json.dumps(shown, ensure_ascii=False) if as_json else shown["toml"], nl=as_json)
+        if as_json:
+            tell_json(shown)
+        else:
+            click.echo(shown["toml"], nl=False)
         return
     styles, palettes = catalogue.styles(), catalogue.palettes()
     if as_json:
-        click.echo(json.dumps({"styles": styles, "palettes": palettes}, ensure_ascii=False))
+        tell_json({"styles": styles, "palettes": palettes})
     else:
         click.echo(f"{listed('--style', styles)}\n\n{listed('--palette', palettes)}")
 

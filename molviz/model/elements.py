@@ -32,7 +32,8 @@ def symbol_of_label(label: str) -> str:
     All its leading letters are the symbol, digits alone an atomic number; ``"X"`` where that is none.
     """
     if re.fullmatch(r"[0-9]+", label):
-        return SYMBOLS[int(label) - 1] if 1 <= int(label) <= len(SYMBOLS) else UNKNOWN
+        number = float(label)  # of any number of digits
+        return SYMBOLS[int(number) - 1] if 1 <= number <= len(SYMBOLS) else UNKNOWN
     letters = re.match(r"[A-Za-z]*", label)
     return symbol_of(letters[0] if letters else "") or UNKNOWN
 

@@ -10,16 +10,18 @@ Values are parted by blanks or commas; ``*`` and ``?`` stand for any letters and
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from fnmatch import fnmatchcase
 from typing import NamedTuple
 
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints, Strings
-from molviz.errors import InputError
+from molviz.errors import OptionError, expected_instead
 from molviz.model.molecule import Molecule
 from molviz.model.residues import AMINO_ACIDS, NUCLEIC_BACKBONE, NUCLEOTIDES, PROTEIN_BACKBONE, WATERS
+
+NO_ATOMS = Molecule.of("", np.empty((0, 3)), np.empty(0, dtype=str))
 
 
 def is_water(molecule: Molecule) -> Bools:
@@ -35,13 +37,18 @@ def is_hydrogen(molecule: Molecule) -> Bools:
 def select(molecule: Molecule, expression: str) -> Bools:
     """Return which atoms (n,) the expression means.
 
-    Raises InputError, naming the place in the expression and what was expected there.
+    Raises OptionError, naming the place in the expression and what was expected there.
     """
     parser = _Parser(molecule, expression)
     chosen = parser.expression()
     if parser.token.text:
         raise parser.error("'and', 'or' or the end")
     return chosen
+
+
+def check_selection(expression: str) -> None:
+    """Raise OptionError, as ``select`` does, for an expression that no molecule has a meaning for."""
+    select(NO_ATOMS, expression)
 
 
 # ---- what the words mean
@@ -116,6 +123,7 @@ _COMPARISONS: dict[str, Callable[[Floats, float], Bools]] = {
 }
 _RANGE = re.compile(r"(-?\d+)[-:](-?\d+)$")
 _LEADING_NUMBER = re.compile(r"-?\d+")
+FARTHEST = 1e100  # ångström: everything is nearer, and the square is a number
 _DEPTH = 100  # far from what the stack of the interpreter bears
 _STARTS = {*_PROPERTIES, *_TEXTS, *_RANGES, *_NUMBERS, "not", "within"}
 _RESERVED = {"and", "or", "of", *_STARTS, ""}
@@ -130,7 +138,7 @@ def _in_ranges(text: str, values: list[str]) -> bool:
     leading = _LEADING_NUMBER.match(text)
     for value in values:
         span = _RANGE.match(value)
-        if text == value or (span and leading and int(span[1]) <= int(leading[0]) <= int(span[2])):
+        if text == value or (span and leading and float(span[1]) <= float(leading[0]) <= float(span[2])):
             return True
     return False
 
@@ -170,10 +178,11 @@ class _Parser:
     def word(self) -> str:
         return "" if self.token.quoted else self.token.text.lower()
 
-    def error(self, expected: str) -> InputError:
-        """Return the exception that says what was expected at the current token."""
+    def error(self, expected: str, known: Iterable[str] = ()) -> OptionError:
+        """Return the exception that says what was expected at the current token, or which known word was meant."""
         shown = repr(self.token.text) if self.token.text else "the end"
-        return InputError(f"selection {self.text!r}, position {self.token.start + 1}: {shown}; expected {expected}")
+        instead = expected_instead(self.token.text, known, expected)
+        return OptionError(f"selection {self.text!r}, position {self.token.start + 1}: {shown}; {instead}")
 
     def take(self) -> str:
         """Consume the current token and return its text."""
@@ -208,7 +217,7 @@ class _Parser:
         if word == "(":
             return self.parenthesis()
         if word not in _STARTS:
-            raise self.error(f"'(' or one of {', '.join(sorted(_STARTS))}")
+            raise self.error(f"'(' or one of {', '.join(sorted(_STARTS))}", sorted(_STARTS))
         self.take()
         if word == "not":
             return ~self.simple()
@@ -267,6 +276,12 @@ class _Parser:
         return _within(self.molecule.position, np.flatnonzero(self.simple()), distance)
 
 
+def _slabs(column: Floats, side: float) -> Ints:
+    """Return the slab of width ``side`` of every number (n,), from 1; rows of empty slabs are numbered as one."""
+    slabs, which = np.unique(np.floor(column / side), return_inverse=True)
+    return np.cumsum(np.append(1, np.minimum(np.diff(slabs), 2))).astype(np.int64)[which]
+
+
 def _within(position: Floats, target: Ints, distance: float) -> Bools:
     """Return which points (n,) are at most ``distance`` from one of the targets.
 
@@ -275,7 +290,8 @@ def _within(position: Floats, target: Ints, distance: float) -> Bools:
     near = np.zeros(len(position), dtype=bool)
     if not len(target) or distance < 0:
         return near
-    cell = np.floor((position - position.min(axis=0)) / max(distance, 1e-3)).astype(np.int64) + 1
+    distance = min(distance, FARTHEST)
+    cell = np.column_stack([_slabs(column, max(distance, 1e-3)) for column in position.T])
     stride = np.cumprod([1, *(cell.max(axis=0) + 2)[:2]])
     order = target[np.argsort(cell[target] @ stride)]
     key = cell[order] @ stride

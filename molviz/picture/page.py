@@ -12,6 +12,7 @@ PAPER = {"a4": (210 * POINTS["mm"], 297 * POINTS["mm"]), "letter": (612.0, 792.0
 USUAL_SIZE = 14 * POINTS["cm"]  # the longer side of a drawing whose size nobody asked for
 LARGEST = 1e6  # points of any length, 350 m
 LARGEST_SCALE = 40.0  # points per ångström of such a drawing
+SMALLEST = 1.0  # ångström: what is smaller than any atom is drawn as large as that
 USUAL_MARGIN = {"fit": 4.0, "a4": 36.0, "letter": 36.0}
 
 
@@ -61,7 +62,7 @@ def place(page: Page, low: Floats, high: Floats, line: float, free: Margins = NO
     drawing is a whole number of points wide and high, so that it divides into whole pixels.
     """
     margin = (USUAL_MARGIN[page.size] if page.margin is None else page.margin) + line
-    extent = np.maximum(high - low, 1e-9)
+    extent = np.maximum(high - low, 1e-60)
     paper = PAPER.get(page.size)
     paper = paper and (paper[0] / page.beside, paper[1])
     taken = np.array([free.left + free.right, free.bottom + free.top])
@@ -79,7 +80,8 @@ def _scale(page: Page, extent: Floats, room: Floats | None) -> float:
         return page.width / float(extent[0])
     if room is not None:
         return float(np.min(np.maximum(room, 1.0) / extent))
-    return min(USUAL_SIZE / float(extent.max()), LARGEST_SCALE)
+    longest = float(extent.max())
+    return min(USUAL_SIZE / longest, LARGEST_SCALE * max(1.0, SMALLEST / longest))
 
 
 def parse_length(text: str) -> float:

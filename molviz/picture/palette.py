@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from molviz import toml
-from molviz.errors import InputError
+from molviz.errors import OptionError, expected_instead
 from molviz.picture.colors import parse_color
 from molviz.picture.picture import Color
 
@@ -51,7 +51,7 @@ def load_palette(name: str) -> Palette:
     """Return a palette by name or from the user's TOML file, which states only what differs from its ``base``.
 
     ``base`` is the name of a palette (default ``tide``); the keys of ``ligand`` differ singly, ``entity`` and ``chain``
-    as a whole. Raises InputError, naming the key, for what is no palette.
+    as a whole. Raises OptionError, naming the key, for what is no palette.
     """
     if name in PALETTES:
         return _palette(_table(FOLDER / f"{name}.toml", name), name)
@@ -59,7 +59,7 @@ def load_palette(name: str) -> Palette:
     _check_keys(table, ("base", *KEYS), "", name)
     base = table.pop("base", DEFAULT)
     if base not in PALETTES:
-        raise InputError(f"palette key 'base': {base!r} is no palette; expected one of {', '.join(PALETTES)}", name)
+        raise OptionError(f"palette key 'base': {base!r} is no palette; expected one of {', '.join(PALETTES)}", name)
     whole = _table(FOLDER / f"{base}.toml", base) | table
     if isinstance(table.get("ligand"), dict):
         whole["ligand"] = _table(FOLDER / f"{base}.toml", base)["ligand"] | table["ligand"]
@@ -68,12 +68,12 @@ def load_palette(name: str) -> Palette:
 
 def _table(path: Path, source: str) -> dict[str, Any]:
     try:
-        return toml.loads(path.read_text(encoding="utf-8"))
+        return toml.read(path)
     except OSError:
-        expected = f"expected one of {', '.join(PALETTES)} or a TOML file"
-        raise InputError(f"no such palette or file; {expected}", source) from None
+        expected = expected_instead(source, PALETTES, f"one of {', '.join(PALETTES)} or a TOML file")
+        raise OptionError(f"no such palette or file; {expected}", source) from None
     except ValueError as wrong:
-        raise InputError(f"not a palette: {wrong}; expected TOML", source) from None
+        raise OptionError(f"not a palette: {wrong}; expected TOML", source) from None
 
 
 def _palette(table: dict[str, Any], source: str) -> Palette:
@@ -95,43 +95,43 @@ def _palette(table: dict[str, Any], source: str) -> Palette:
 def _check_keys(table: dict[str, Any], known: tuple[str, ...], where: str, source: str) -> None:
     for key in table:
         if key not in known:
-            raise InputError(f"palette key '{where}{key}' is unknown; expected {', '.join(known)}", source)
+            raise OptionError(f"palette key '{where}{key}' is unknown; expected {', '.join(known)}", source)
 
 
 def _title(value: object, source: str) -> str:
     if not isinstance(value, str):
-        raise InputError(f"palette key 'title': {value!r} is not a text", source)
+        raise OptionError(f"palette key 'title': {value!r} is not a text", source)
     return value
 
 
 def _tint(value: object, source: str) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value <= LARGEST_TINT:
-        raise InputError(f"palette key 'tint': {value!r}; expected a number from 0 to {LARGEST_TINT:g}", source)
+        raise OptionError(f"palette key 'tint': {value!r}; expected a number from 0 to {LARGEST_TINT:g}", source)
     return float(value)
 
 
 def _color(value: object, key: str, source: str) -> Color:
     if not isinstance(value, str):
-        raise InputError(f"palette key '{key}': {value!r} is not a colour; expected a text like \"#9cc3d1\"", source)
+        raise OptionError(f"palette key '{key}': {value!r} is not a colour; expected a text like \"#9cc3d1\"", source)
     try:
         return parse_color(value)
     except ValueError as wrong:
-        raise InputError(f"palette key '{key}': {wrong}", source) from None
+        raise OptionError(f"palette key '{key}': {wrong}", source) from None
 
 
 def _tones(value: object, key: str, source: str) -> Tones:
     if not isinstance(value, dict):
-        raise InputError(f"palette key '{key}': {value!r}; expected a table of {', '.join(TONES)}", source)
+        raise OptionError(f"palette key '{key}': {value!r}; expected a table of {', '.join(TONES)}", source)
     _check_keys(value, TONES, f"{key}.", source)
     missing = [name for name in TONES if name not in value]
     if missing:
-        raise InputError(f"palette key '{key}.{missing[0]}' is missing; expected {', '.join(TONES)}", source)
+        raise OptionError(f"palette key '{key}.{missing[0]}' is missing; expected {', '.join(TONES)}", source)
     return Tones(*(_color(value[name], f"{key}.{name}", source) for name in TONES))
 
 
 def _filled(value: object, key: str, source: str) -> list[Any]:
     if not isinstance(value, list) or not value:
-        raise InputError(f"palette key '{key}': {value!r}; expected a list with something in it", source)
+        raise OptionError(f"palette key '{key}': {value!r}; expected a list with something in it", source)
     return value
 
 
@@ -140,5 +140,5 @@ def _chain(values: list[Any], source: str) -> tuple[Color, ...]:
     for number, color in enumerate(colors, start=1):
         earlier = colors.index(color) + 1
         if earlier < number:
-            raise InputError(f"palette key 'chain[{number}]' is the same colour as chain[{earlier}]", source)
+            raise OptionError(f"palette key 'chain[{number}]' is the same colour as chain[{earlier}]", source)
     return colors

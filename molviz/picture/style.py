@@ -4,7 +4,6 @@ Every key of every section has a type and stands in ``styles/flat.toml`` with it
 here; radii are physics and do not.
 """
 
-import difflib
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from molviz import toml
-from molviz.errors import InputError
+from molviz.errors import OptionError, expected_instead
 from molviz.picture.colors import parse_color
 from molviz.picture.ink import InkStyle, Pen
 from molviz.picture.picture import Color
@@ -140,13 +139,13 @@ class Style:
 def load_style(name: str) -> Style:
     """Return a style by name or from the user's TOML file.
 
-    Raises InputError where it is neither, for keys that no style has and for values of the wrong kind.
+    Raises OptionError where it is neither, for keys that no style has and for values of the wrong kind.
     """
     whole = _whole(name, 0)
     try:
         return _style(_Section(whole))
     except ValueError as wrong:
-        raise InputError(f"not a style: {wrong}", name) from None
+        raise OptionError(f"not a style: {wrong}", name) from None
 
 
 @cache
@@ -159,11 +158,11 @@ def _whole(name: str, depth: int) -> Table:
     if name == ROOT:
         return _root()
     if depth > MOST_BASES:
-        raise InputError("styles are based on each other in a circle", name)
+        raise OptionError("styles are based on each other in a circle", name)
     table = _read(name)
     base = table.pop("base", ROOT)
     if not isinstance(base, str):
-        raise InputError(f"base = {base!r} is no name of a style", name)
+        raise OptionError(f"base = {base!r} is no name of a style", name)
     _refuse_unknown(table, _root(), "", name)
     return _laid_over(_whole(base, depth + 1), table)
 
@@ -171,15 +170,12 @@ def _whole(name: str, depth: int) -> Table:
 def _read(name: str) -> Table:
     path = FOLDER / f"{name}.toml" if name in STYLES else Path(name)
     try:
-        return toml.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as wrong:
-        if name in STYLES or isinstance(wrong, toml.TOMLDecodeError | UnicodeDecodeError):
-            raise InputError(f"not a style: {wrong}", name) from None
-        hint = difflib.get_close_matches(name, STYLES, 1)
-        expected = f"did you mean {hint[0]!r}?" if hint else f"expected one of {', '.join(STYLES)} or a TOML file"
-        raise InputError(f"no such style or file; {expected}", name) from None
-    except RecursionError:
-        raise InputError("not a style: tables in tables without end", name) from None
+        return toml.read(path)
+    except ValueError as wrong:
+        raise OptionError(f"not a style: {wrong}", name) from None
+    except OSError:
+        expected = expected_instead(name, STYLES, f"one of {', '.join(STYLES)} or a TOML file")
+        raise OptionError(f"no such style or file; {expected}", name) from None
 
 
 def _refuse_unknown(table: Table, known: Table, where: str, name: str) -> None:
@@ -187,12 +183,11 @@ def _refuse_unknown(table: Table, known: Table, where: str, name: str) -> None:
         if where in ("colors.element.", "colors.residue."):
             continue
         if key not in known:
-            hint = difflib.get_close_matches(key, known, 1)
-            expected = f"did you mean {where}{hint[0]}?" if hint else f"expected one of {', '.join(known)}"
-            raise InputError(f"no style has a key {where}{key}; {expected}", name)
+            expected = expected_instead(key, known, f"one of {', '.join(known)}")
+            raise OptionError(f"no style has a key {where}{key}; {expected}", name)
         if isinstance(known[key], dict) != isinstance(value, dict):
             kind = "a table" if isinstance(known[key], dict) else "a value"
-            raise InputError(f"not a style: {where}{key} is expected to be {kind}", name)
+            raise OptionError(f"not a style: {where}{key} is expected to be {kind}", name)
         if isinstance(value, dict):
             _refuse_unknown(value, known[key], f"{where}{key}.", name)
 

@@ -1,9 +1,8 @@
 """What there is to choose from: styles, palettes and tables of radii, each with a line on what it is."""
 
-import difflib
 from typing import Any
 
-from molviz.errors import InputError
+from molviz.errors import OptionError, expected_instead
 from molviz.model import radii
 from molviz.picture import palette, style
 
@@ -32,12 +31,11 @@ def radii_tables() -> list[dict[str, Any]]:
 def text_of(name: str) -> dict[str, str]:
     """Return the kind of a style or palette, its name and its TOML file as it stands.
 
-    Raises InputError, with the nearest name, where there is neither.
+    Raises OptionError, with the nearest name, where there is neither.
     """
     for kind, module, names in (("style", style, style.STYLES), ("palette", palette, palette.PALETTES)):
         if name in names:
             return {"kind": kind, "name": name, "toml": (module.FOLDER / f"{name}.toml").read_text(encoding="utf-8")}
     known = (*style.STYLES, *palette.PALETTES)
-    hint = difflib.get_close_matches(name, known, 1)
-    expected = f"did you mean {hint[0]!r}?" if hint else f"expected one of {', '.join(known)}"
-    raise InputError(f"no style or palette {name!r}; {expected}")
+    expected = expected_instead(name, known, f"one of {', '.join(known)}")
+    raise OptionError(f"no style or palette {name!r}; {expected}")

@@ -14,14 +14,14 @@ from molviz.errors import InputError
 from molviz.geometry.measure import measure_spheres
 from molviz.model.entities import entities_of
 from molviz.model.molecule import Molecule
-from molviz.model.selection import select
+from molviz.model.selection import NO_ATOMS, check_selection, select
 from molviz.picture.compose import alike_with, picture_of_map, picture_of_pieces
 from molviz.picture.options import Alike, DrawOptions, Labelled, Painted, Subject
 from molviz.picture.palette import load_palette
 from molviz.picture.picture import Color, Picture
 from molviz.picture.style import load_style
-from molviz.pipeline.inputs import Loaded
-from molviz.pipeline.outputs import encoded, save
+from molviz.pipeline.inputs import Loaded, refuse_unresolved
+from molviz.pipeline.outputs import encoded, refuse_inputs, save
 from molviz.pipeline.values import (
     Options,
     chosen,
@@ -79,6 +79,11 @@ class Drawing:
     subject: Subject  # the molecule, and what there is to tell of it
 
     @property
+    def source(self) -> str:
+        """The name of the file that is drawn, or what stands for one."""
+        return self._loaded.source
+
+    @property
     def notes(self) -> tuple[str, ...]:
         """What is odd about the picture: colours that stand for more than one chain."""
         chains = len(np.unique(self._loaded.molecule.chain))
@@ -123,6 +128,7 @@ class Drawing:
         suffix = PurePath(path).suffix
         if suffix.lower() not in suffixes():
             raise InputError(f"path: no format {suffix!r}; expected one of {' '.join(suffixes())}")
+        refuse_inputs(os.fspath(path), [self.source])
         save(os.fspath(path), self.to(suffix, plotter, paper))
 
     def picture(self, suffix: str) -> Picture:
@@ -173,8 +179,12 @@ def draw_request_from(options: Options) -> DrawRequest:
         title=given(options, "title", parse_text) or "",
         scale_bar=given(options, "scale_bar", parse_scale_bar),
     )
-    colors = given(options, "color", parse_all_painted) or ()
-    return DrawRequest(look, colors, given(options, "label", parse_labels) or ())
+    colors, labels = given(options, "color", parse_all_painted) or (), given(options, "label", parse_labels) or ()
+    for selection, _ in colors:
+        check_selection(selection)
+    for label in labels:
+        labelled_of(NO_ATOMS, label)
+    return DrawRequest(look, colors, labels)
 
 
 def labelled_of(molecule: Molecule, text: str) -> Labelled:
@@ -204,6 +214,7 @@ def drawings_of(
     loaded: Loaded, request: DrawRequest, views: Sequence[View], method: str = "visible", check: bool = False
 ) -> list[Drawing]:
     """Return one model drawn from each view; what no view changes is computed once. As ``drawing_of`` otherwise."""
+    refuse_unresolved(loaded)
     scene = Scene(loaded.spheres, only=views[0] if len(views) == 1 else None)
     options = request.options.settled(entities_of(loaded.molecule), method == "painter")
     subject = subject_of(loaded, request, options)

@@ -21,7 +21,7 @@ from molviz.discs.grid import (
     franklin_count,
 )  # fmt: skip
 from molviz.discs.regions import DiscRegions, displaced, visible_regions
-from molviz.errors import InputError
+from molviz.errors import InputError, OptionError
 from molviz.geometry.circles import CircleArcs
 from molviz.geometry.general_position import Degenerate, first_general
 from molviz.model.scenes import random_scene, text_scene
@@ -42,6 +42,7 @@ LABELS = {  # his words, where he has them
     "Completely hidden", "arcs": "Total visible arcs", "length_circumferences":
     "Total length of all visible arcs (circles)", "seconds": "Time (seconds)",
 }  # fmt: skip
+MOST_LETTERS = 100  # of a text: each is a few hundred spheres
 
 
 @dataclass(frozen=True)
@@ -91,7 +92,9 @@ def random_discs(
 
 
 def lettered_discs(text: str, *, shrink: bool, across: int | None) -> HiddenDiscs:
-    """Return a word spelt in layers of spheres without its hidden lines."""
+    """Return a word spelt in layers of spheres without its hidden lines; raises OptionError for a long text."""
+    if len(text) > MOST_LETTERS:
+        raise OptionError(f"text: {len(text)} letters; expected at most {MOST_LETTERS}")
     return hide_discs(text_scene(text, shrink=shrink), across=across)
 
 

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools
-from molviz.errors import InputError
+from molviz.arrays import Bools, Floats
+from molviz.errors import InputError, OptionError
 from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT
 from molviz.model.selection import is_hydrogen, is_water, select
@@ -16,6 +16,8 @@ from molviz.readers import FORMATS as READERS
 from molviz.readers import Reading, read
 
 FAR_APART = 4000.0  # radii: wider pictures have more pixels than a screen, if each atom is to have two
+SHORTEST, LONGEST = 1e-60, 1e60  # ångström: fourth powers, and quotients of them, are numbers
+RESOLVED = 64  # steps of the rounding in a radius, at least, for a ball to be told from its neighbours
 FORMATS = tuple(READERS)
 
 
@@ -33,6 +35,7 @@ class InputOptions:
     scale_radii: float = 1.0
     probe: float = 0.0
     format: str | None = None
+    unpack_all: bool = False  # archives however much they hold
 
 
 class Loaded(NamedTuple):
@@ -54,7 +57,7 @@ def load(source: str, wanted: InputOptions, data: bytes | None = None) -> list[L
 
     Raises InputError for what cannot be read, for a model or assembly that is not there, and where nothing is left.
     """
-    return loaded_from(read(source, data, wanted.format), wanted)
+    return loaded_from(read(source, data, wanted.format, wanted.unpack_all), wanted)
 
 
 def loaded_from(reading: Reading, wanted: InputOptions) -> list[Loaded]:
@@ -66,7 +69,7 @@ def only_model(loaded: list[Loaded]) -> Loaded:
     """Return the one model that a picture shows; raises InputError where there are more."""
     if len(loaded) > 1:
         count = len(loaded)
-        raise InputError(f"has {count} models, and a picture shows one; expected --model NUMBER", loaded[0].source)
+        raise OptionError(f"has {count} models, and a picture shows one; expected --model NUMBER", loaded[0].source)
     return loaded[0]
 
 
@@ -78,7 +81,7 @@ def _model_numbers(reading: Reading, model: str) -> list[int]:
     last = last if dash else first
     if first.isdecimal() and last.isdecimal() and 1 <= int(first) <= int(last) <= count:
         return list(range(int(first), int(last) + 1))
-    raise InputError(f"no model or frame {model!r}; the file has {count}, numbered from 1", reading.source)
+    raise OptionError(f"no model or frame {model!r}; the file has {count}, numbered from 1", reading.source)
 
 
 def means_several(model: str) -> bool:
@@ -90,8 +93,10 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
     whole = reading.models[number - 1]
     if wanted.assembly is not None:
         whole = reading.assembly(wanted.assembly, number - 1)
+    _refuse_unheld("a coordinate", np.abs(whole.position).max(axis=1), 0.0, reading.source)
     molecule = _named(_kept(whole, wanted, reading.source), reading.source)
     bare, warnings = spheres_of(molecule, wanted.radii)
+    _refuse_unheld("a radius", bare.radius, SHORTEST, reading.source)
     spheres = bare.enlarged(wanted.scale_radii, wanted.probe)
     warnings += _far_apart(spheres) + _without_water(whole, molecule, wanted)
     told = tuple(f"{reading.source}: {warning}" for warning in warnings)
@@ -99,6 +104,23 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
     return Loaded(
         reading.source, reading.format, number, count, len(whole), molecule, spheres, bare, reading.warnings + told
     )
+
+
+def _refuse_unheld(what: str, size: Floats, least: float, source: str) -> None:
+    """Raise InputError for the first atom whose size (n,) is not from ``least`` to ``LONGEST``."""
+    wrong = np.flatnonzero(~((size >= least) & (size <= LONGEST)))
+    if len(wrong):
+        message = f"atom {wrong[0] + 1} has {what} of {size[wrong[0]]:g} Å; expected {least:g} to {LONGEST:g}"
+        raise InputError(message, source)
+
+
+def refuse_unresolved(loaded: Loaded) -> None:
+    """Raise InputError where the smallest ball is lost in the rounding of a scene as large as this."""
+    low, high = loaded.spheres.box()
+    extent, least = float(np.max(high - low)), float(loaded.spheres.radius.min())
+    if np.spacing(extent) * RESOLVED > least:
+        message = f"an atom of {least:.3g} Å is lost in the rounding of atoms that extend over {extent:.3g} Å"
+        raise InputError(f"{message}; expected nearer ones", loaded.source)
 
 
 def _kept(molecule: Molecule, wanted: InputOptions, source: str) -> Molecule:

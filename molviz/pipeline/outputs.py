@@ -2,13 +2,22 @@
 
 import errno
 import os
+import re
+import stat
 import sys
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path, PurePath
 
-from molviz.errors import InputError
+from molviz.errors import InputError, OptionError
 from molviz.picture.picture import Picture
 from molviz.write import WRITERS, write
+
+STEM, NUMBER = PATTERNS = ("{stem}", "{n}")  # in the name of an output: the input's name, the picture's number
+STANDARD = {"stdin": 0, "stdout": 1, "stderr": 2}
+STANDARD_OUTPUT = STANDARD["stdout"]
+DESCRIPTOR = re.compile(r"(?:/dev/fd|/proc/self/fd)/([0-9]{1,9})|/dev/(stdin|stdout|stderr)")
+MOST_LINKS = 40  # of a chain, as in Linux; a longer one is a circle
 
 
 def encoded(picture: Picture, suffix: str, plotter: str = "", paper: str = "") -> bytes:
@@ -36,28 +45,76 @@ def target_of(source: str, output: str, suffix: str) -> str:
     """Return the file an input is written to: ``output`` with ``{stem}`` replaced, or a file in the folder it names."""
     if output.endswith("/") or os.path.isdir(output):  # noqa: PTH112 (Path.is_dir raises for names too long)
         return str(Path(output) / f"{stem_of(source)}{suffix}")
-    return output.replace("{stem}", stem_of(source))
+    return output.replace(STEM, stem_of(source))
 
 
-def save(target: str, data: bytes) -> None:
+def refuse_inputs(target: str, inputs: Iterable[str]) -> None:
+    """Raise OptionError where a file that would be written is one of those that are read, whatever its names are."""
+    written = _identity(target)
+    for source in inputs:
+        if written and written == _identity(source):
+            raise OptionError(f"is the input {source} itself; expected another name for the output", target)
+
+
+def _identity(path: str) -> tuple[int, int] | None:
+    """Device and inode of a regular file, None where there is none: reading from a terminal leaves it to write to."""
+    try:
+        found = os.stat(path)  # noqa: PTH116 (Path("") is the folder)
+    except (OSError, ValueError):
+        return None
+    return (found.st_dev, found.st_ino) if stat.S_ISREG(found.st_mode) else None
+
+
+def makes_folder(output: str) -> bool:
+    """Return whether folders that an output names are made where they are missing: by ``out/`` and by patterns."""
+    return output.endswith("/") or any(part in output for part in PATTERNS)
+
+
+def save(target: str, data: bytes, make_folder: bool = False) -> None:
     """Write a file beside its target and rename it, or write to standard output for ``-``.
 
-    An existing file is untouched when anything fails; raises InputError naming the target then.
+    A symbolic link stays one, and what it names is written; a pipe, a device or a descriptor (``/dev/stdout``) is
+    written into. An existing file is untouched when anything fails; raises InputError naming the target then.
     """
-    path = Path(target)
     try:
-        if target == "-":
-            _print(data)
+        descriptor = STANDARD_OUTPUT if target == "-" else _descriptor(target)
+        if descriptor is not None:
+            _print(data, descriptor)
             return
-        path.parent.mkdir(parents=True, exist_ok=True)
+        path = Path(os.path.realpath(target))
+        if path.is_symlink():
+            raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+        if path.exists() and not path.is_file() and not path.is_dir():
+            path.write_bytes(data)
+            return
+        if make_folder:
+            path.parent.mkdir(parents=True, exist_ok=True)
         _replace(path, data)
     except BrokenPipeError:
         raise  # the reader has enough: no error to tell
+    except FileNotFoundError:
+        raise InputError("cannot be written: there is no such folder; expected one that exists", target) from None
     except OSError as wrong:
         raise InputError(f"cannot be written: {wrong.strerror}", target) from None
 
 
-def _print(data: bytes) -> None:
+def _descriptor(target: str) -> int | None:
+    """Return which open descriptor of this process a name or its links mean, None for a file of its own."""
+    for _ in range(MOST_LINKS):
+        named = DESCRIPTOR.fullmatch(os.path.abspath(target))  # noqa: PTH100 (links stay)
+        if named:
+            return STANDARD[named[2]] if named[2] else int(named[1])
+        if not os.path.islink(target):  # noqa: PTH114 (Path.is_link raises for names too long)
+            break
+        target = os.path.join(os.path.dirname(target), os.readlink(target))  # noqa: PTH115, PTH118, PTH120
+    return None
+
+
+def _print(data: bytes, descriptor: int) -> None:
+    if descriptor != STANDARD_OUTPUT:
+        with os.fdopen(os.dup(descriptor), "wb") as file:
+            file.write(data)
+        return
     if sys.stdout is None:
         raise OSError(errno.EBADF, "standard output is closed")
     sys.stdout.buffer.write(data)

@@ -8,7 +8,7 @@ from pathlib import PurePath
 
 import numpy as np
 
-from molviz.errors import InputError
+from molviz.errors import InputError, OptionError
 from molviz.model.entities import entities_of
 from molviz.picture.options import Alike, Depth
 from molviz.picture.page import Margins
@@ -16,13 +16,12 @@ from molviz.picture.picture import Picture
 from molviz.picture.stereo import beside, page_of_half
 from molviz.pipeline.draw import JSON, Drawing, DrawRequest, drawing_of, drawings_of, suffixes
 from molviz.pipeline.inputs import Loaded, means_several
-from molviz.pipeline.outputs import encoded, save
+from molviz.pipeline.outputs import NUMBER, encoded, makes_folder, refuse_inputs, save
 from molviz.pipeline.values import Options, chosen, given, parse_count
 from molviz.pipeline.views import ViewOptions, view_of
 from molviz.visibility.view import View
 from molviz.write import MANY, write_many
 
-NUMBER = "{n}"  # in the name of a file: the number of the picture
 EYE_TURN = 3.0  # degrees to either side of the view: eyes 65 mm apart, 62 cm from what they look at
 ROUNDS = 4  # of looking for margins that serve all pictures: another scale may place labels anew
 
@@ -110,8 +109,10 @@ class DrawingSet:
 
         The suffix of the path names the format. Raises InputError as ``to`` does, and where a file cannot be written.
         """
+        made = makes_folder(os.fspath(path))
         for target, data in self.files(os.fspath(path), PurePath(path).suffix, plotter, paper):
-            save(target, data)
+            refuse_inputs(target, [self._views[0][0].source])
+            save(target, data, made)
 
     def files(self, path: str, format: str, plotter: str = "", paper: str = "") -> Iterator[tuple[str, bytes]]:
         """Yield the name and the content of each file that ``path`` means; raises InputError as ``to`` does."""
@@ -146,7 +147,7 @@ def set_options_from(options: Options) -> SetOptions:
     """Return which pictures are wanted; raises InputError naming the option that is wrong."""
     models, turntable = means_several(str(options["model"])), given(options, "turntable", parse_count)
     if models and turntable is not None:
-        raise InputError("turntable: it turns one model; expected a single model")
+        raise OptionError("turntable: it turns one model; expected a single model")
     stereo = chosen(options, "stereo") if options["stereo"] is not None else None
     return SetOptions(models, turntable, stereo)
 

@@ -1,13 +1,16 @@
 """Options become values: the words of the command line, and what Python callers write in their place.
 
 Every parser takes the text (``"8cm"``, ``"x,30"``, ``"#fff"``) as well as the value it stands for, and raises
-ValueError for anything else; ``…_from`` take all options by name and raise InputError naming the one that is wrong.
+ValueError for anything else; ``…_from`` take all options by name and raise OptionError naming the one that is wrong.
 """
 
+import re
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
-from molviz.errors import InputError
+from molviz.errors import OptionError
+from molviz.model.radii import load_table
+from molviz.model.selection import check_selection
 from molviz.picture.coloring import CONTINUOUS, DISCRETE
 from molviz.picture.colors import parse_color
 from molviz.picture.furniture import ROUND
@@ -21,6 +24,7 @@ T = TypeVar("T")
 
 SMALLEST, LARGEST = 1e-6, 1e9  # of any number given as an option: what lies outside has no picture in doubles
 MOST = 3600  # pictures of a turntable: a tenth of a degree each
+MODELS = re.compile(r"[0-9]{1,18}(-[0-9]{1,18})?")  # more digits count more models than any file has
 CHOICES = {
     "method": ("visible", "painter"),
     "fill": ("flat", "none"),
@@ -160,15 +164,29 @@ def parse_text(value: Any) -> str:
     return value
 
 
+def parse_selection(value: Any) -> str:
+    """Return an expression that the language of selections understands."""
+    check_selection(parse_text(value))
+    return str(value)
+
+
+def parse_model(value: Any) -> str:
+    """Return a number from 1, the first and the last of several (``"2-4"``) or ``"all"``, as text."""
+    if value != "all" and not MODELS.fullmatch(str(value)):
+        raise ValueError(f"no model or frame {value!r}; expected a number from 1, A-B or all")
+    return str(value)
+
+
 # ---- from all options by name
 
 
 def input_options_from(options: Options) -> InputOptions:
-    """Return which part of the input is wanted."""
+    """Return which part of the input is wanted; raises OptionError for what is wrong whatever the input holds."""
+    load_table(str(options["radii"]))
     return InputOptions(
-        model=str(options["model"]),
+        model=given(options, "model", parse_model),
         assembly=given(options, "assembly", parse_text),
-        select=given(options, "select", parse_text),
+        select=given(options, "select", parse_selection),
         water=_water_from(options),
         hydrogens=not options["no_hydrogens"],
         chains=given(options, "chain", parse_chains) or (),
@@ -176,6 +194,7 @@ def input_options_from(options: Options) -> InputOptions:
         scale_radii=given(options, "scale_radii", parse_positive),
         probe=given(options, "probe", parse_not_negative),
         format=options.get("format_"),
+        unpack_all=bool(options.get("unpack_all")),
     )
 
 
@@ -209,7 +228,7 @@ def chosen(options: Options, name: str) -> str:
     """Return an option that is one of ``CHOICES``."""
     value: str = options[name]
     if value not in CHOICES[name]:
-        raise InputError(f"{name}: {value!r}; expected one of {', '.join(CHOICES[name])}")
+        raise OptionError(f"{name}: {value!r}; expected one of {', '.join(CHOICES[name])}")
     return value
 
 
@@ -219,7 +238,9 @@ def given(options: Options, name: str, parse: Callable[[Any], T]) -> Any:
         return None
     try:
         return parse(options[name])
+    except OptionError:
+        raise
     except ValueError as wrong:
-        raise InputError(f"{name}: {wrong}") from None
+        raise OptionError(f"{name}: {wrong}") from None
     except (AttributeError, TypeError, OverflowError):
-        raise InputError(f"{name}: {options[name]!r} is of no use here; see help(molviz.draw)") from None
+        raise OptionError(f"{name}: {options[name]!r} is of no use here; see help(molviz.draw)") from None

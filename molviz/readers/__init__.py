@@ -51,16 +51,19 @@ _SIGNS = {  # what the first line that says something looks like
 }
 
 
-def read(path: str | os.PathLike[str], data: bytes | None = None, format: str | None = None) -> Reading:
+def read(
+    path: str | os.PathLike[str], data: bytes | None = None, format: str | None = None, unpack_all: bool = False
+) -> Reading:
     """Return what a file holds; ``data`` is its content where it is not to be opened (standard input).
 
     The format is the one given (``"pdb"``, ``"mmcif"``, ``"xyz"``, ``"extxyz"``, ``"xyzr"``), else what the content
-    shows, else what the suffix says. Raises InputError, naming file, line and reason, for all that is not clear.
+    shows, else what the suffix says. ``unpack_all`` reads archives that hold far more than molecules do. Raises
+    InputError, naming file, line and reason, for all that is not clear.
     """
     if not isinstance(path, str | os.PathLike):
         raise InputError(f"path: {type(path).__name__} is no path; expected text or a Path")
     source = os.fspath(path)
-    text, warnings = text_of(source, data)
+    text, warnings = text_of(source, data, unpack_all)
     suffix = PurePath(source.lower().removesuffix(".gz")).suffix
     named = READERS.get(suffix)
     name = format or _recognised(text) or named

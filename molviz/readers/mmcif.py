@@ -5,6 +5,7 @@ PDBx/mmCIF dictionary, categories atom_site, pdbx_struct_assembly_gen and pdbx_s
 """
 
 import itertools
+import math
 import re
 from collections.abc import Iterator, Mapping
 from functools import cached_property
@@ -14,12 +15,12 @@ import gemmi
 import numpy as np
 from gemmi import cif
 
-from molviz.arrays import Fields, Floats, Ints, Strings
+from molviz.arrays import Floats, Ints, Strings
 from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of_atom_name, symbol_of_label
 from molviz.model.molecule import Molecule
 from molviz.readers.atoms import AtomTable, coinciding_note, coinciding_rows, models_of
-from molviz.readers.numbers import number_of, numbers
+from molviz.readers.numbers import LONGEST, SHOWN, number_of, numbers, octets_of, overlong
 from molviz.readers.reading import AssemblyPart, Reading
 from molviz.readers.source import note
 
@@ -28,6 +29,7 @@ _CARTESIAN = tuple(f"_atom_site.Cartn_{axis}" for axis in _AXES)
 _FRACTIONAL = tuple(f"_atom_site_fract_{axis}" for axis in _AXES)
 _OPERATORS = ("_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz")
 _UNCERTAINTY = re.compile(rb"\(\d+\)$")  # 1.234(5): standard uncertainty in the last digits
+MOST_COPIES = 20_000  # of all assemblies of a file; the largest capsids have some thousands
 _TOKEN = re.compile(r"""'.*?'(?=\s|$)|".*?"(?=\s|$)|\#.*|\S+""")
 _POSITION = re.compile(r"^[^:]*:(\d+):\S* *")
 
@@ -111,6 +113,10 @@ class Site:
         values = list(self.block.find_values(tag))
         if not values:
             return None
+        wrong = overlong(values)
+        if wrong is not None:
+            message = f"{tag} has {len(values[wrong])} letters, {values[wrong][:SHOWN]!r}…; expected at most {LONGEST}"
+            raise InputError(message, self.source, self.line_of(wrong))
         clean = {value: "" if value in (".", "?") else cif.as_string(value) for value in set(values)}
         return np.array([clean[value] for value in values])
 
@@ -136,7 +142,7 @@ class Site:
         def error(row: int, text: str) -> InputError:
             return InputError(f"{tag} is {text!r}; expected a finite number", self.source, self.line_of(row))
 
-        return numbers(_without_uncertainty(values), error)
+        return numbers(octets_of(_without_uncertainty(values), error), error)
 
     def optional(self, tag: str, default: float) -> tuple[Floats, list[str]]:
         """Return a column of numbers, the default for ``.`` and ``?``, and a warning where one is something else."""
@@ -170,11 +176,11 @@ class Site:
         return self._line_of_row[row] if row < len(self._line_of_row) else None
 
 
-def _without_uncertainty(values: list[str]) -> Fields:
+def _without_uncertainty(values: list[str]) -> list[bytes]:
     octets = [value.encode() for value in values]
     if any(octet.endswith(b")") for octet in octets):
         octets = [_UNCERTAINTY.sub(b"", octet) for octet in octets]
-    return np.array(octets)
+    return octets
 
 
 # ---- macromolecules
@@ -240,16 +246,21 @@ def _name(site: Site) -> str:
 
 def _assemblies(site: Site) -> tuple[Mapping[str, tuple[AssemblyPart, ...]], list[str]]:
     """Return the assemblies whose operators are complete, and a warning where one is not."""
-    operators, warnings = _operators(site), []
+    operators, warnings, copies = _operators(site), [], 0
     assemblies: dict[str, tuple[AssemblyPart, ...]] = {}
     tags = ["assembly_id", "oper_expression", "asym_id_list"]
     for row in site.block.find("_pdbx_struct_assembly_gen.", tags):
         name, expression, chains = (row.str(column) for column in range(3))
-        products = list(itertools.product(*_factors(expression)))
-        if not all(factor in operators for product in products for factor in product):
+        factors = _factors(expression)
+        if not all(factor in operators for several in factors for factor in several):
             message = f"assembly {name!r} has an operator {expression!r} that the file does not define; left out"
             warnings.append(note(message, site.source))
             continue
+        copies += math.prod(map(len, factors))
+        if copies > MOST_COPIES:
+            warnings.append(note(f"assembly {name!r} has over {MOST_COPIES} copies; left out", site.source))
+            break
+        products = itertools.product(*factors)
         moves = np.array([_product([operators[factor] for factor in product]) for product in products])
         part = AssemblyPart(frozenset(chains.replace(" ", "").split(",")), moves)
         assemblies[name] = (*assemblies.get(name, ()), part)
@@ -263,8 +274,11 @@ def _factors(expression: str) -> list[list[str]]:
 
 
 def _range(item: str) -> list[str]:
-    match = re.fullmatch(r"(\d+)-(\d+)", item)
-    return [str(number) for number in range(int(match[1]), int(match[2]) + 1)] if match else [item]
+    """Return the operators of a range such as ``1-60``; a longer one than any assembly has stays one name."""
+    match = re.fullmatch(r"(\d{1,9})-(\d{1,9})", item)
+    if not match or int(match[2]) - int(match[1]) >= MOST_COPIES:
+        return [item]
+    return [str(number) for number in range(int(match[1]), int(match[2]) + 1)]
 
 
 def _operators(site: Site) -> dict[str, Floats]:

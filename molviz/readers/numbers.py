@@ -1,7 +1,7 @@
 """Columns of text to columns of finite numbers, without forgiveness."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,6 +9,8 @@ import numpy as np
 from molviz.arrays import Fields, Floats
 from molviz.errors import InputError
 
+LONGEST = 500  # letters of a name or number; a column is as wide as its longest, and one has to fit many times
+SHOWN = 40  # letters of a longer one that a message repeats
 _NUMBER = re.compile(rb" *[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)? *")
 _LEGAL = np.isin(np.arange(256), np.frombuffer(b"0123456789+-.eE \0", np.uint8))
 _FORTRAN = np.where(np.isin(np.arange(256), (ord("d"), ord("D"))), ord("E"), np.arange(256)).astype(np.uint8)
@@ -27,6 +29,19 @@ def numbers(texts: Fields, error: Callable[[int, str], InputError]) -> Floats:
             return values
     row = next(row for row, text in enumerate(texts) if not is_number(text))
     raise error(row, texts[row].decode("latin-1"))
+
+
+def octets_of(words: list[bytes], error: Callable[[int, str], InputError]) -> Fields:
+    """Return words (n,) as a column, as wide as the longest; raises ``error(row, text)`` for one that is too long."""
+    row = overlong(words)
+    if row is not None:
+        raise error(row, f"{words[row][:SHOWN].decode('latin-1')}…")
+    return np.array(words)
+
+
+def overlong(words: Sequence[str] | Sequence[bytes]) -> int | None:
+    """Return the row of the first word that is longer than ``LONGEST``, None where there is none."""
+    return next((row for row, word in enumerate(words) if len(word) > LONGEST), None)
 
 
 def number_of(text: bytes) -> float | None:

@@ -65,11 +65,13 @@ def _lines(data: bytes) -> Lines:
     padded = np.frombuffer(data + b"\n" + b" " * WIDTH, np.uint8)
     stop = np.flatnonzero(padded == ord("\n"))
     start = np.concatenate([[0], stop[:-1] + 1])
+    filled = np.flatnonzero(stop > start)  # empty lines are a byte in the file, and WIDTH here
+    start, stop = start[filled], stop[filled]
     octet = np.lib.stride_tricks.sliding_window_view(padded, WIDTH)[start]
     length = stop - start
     short = np.flatnonzero(length < WIDTH)
     octet[short] = np.where(np.arange(WIDTH) < length[short, None], octet[short], ord(" "))
-    return Lines(octet, length, np.arange(1, len(start) + 1))
+    return Lines(octet, length, filled + 1)
 
 
 def _check_columns(atoms: Lines, source: str) -> None:

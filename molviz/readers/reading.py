@@ -70,7 +70,8 @@ def _copies(molecule: Molecule, rows: Ints, part: AssemblyPart, made: int) -> li
     copies = []
     for number, operator in enumerate(part.operators, start=made + 1):
         chain = np.char.add(names, f"-{number}" if number > 1 else "")[name_of_atom] if len(rows) else original.chain
-        position = original.position @ operator[:, :3].T + operator[:, 3]
+        with np.errstate(over="ignore", invalid="ignore"):  # who draws or measures refuses what is not finite
+            position = original.position @ operator[:, :3].T + operator[:, 3]
         copies.append(replace(original, position=position, chain=chain))
     return copies
 

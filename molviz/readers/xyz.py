@@ -11,12 +11,14 @@ from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_label
 from molviz.model.molecule import Molecule
 from molviz.readers.atoms import coinciding_note, coinciding_rows
-from molviz.readers.numbers import is_number, numbers
+from molviz.readers.numbers import LONGEST, SHOWN, is_number, numbers, octets_of, overlong
 from molviz.readers.reading import Reading
 from molviz.readers.source import note
 
 _PROPERTIES = re.compile(rb"(?:^|\s)properties=(?:\"([^\"]*)\"|(\S+))", re.IGNORECASE)
 _COUNT = re.compile(rb"\s*[+-]?\d{1,18}\s*")
+_REPEAT = re.compile(rb"[1-9]\d{0,8}")
+_REPEATED = {b"species": b"1", b"z": b"1", b"pos": b"3"}  # how many columns these have
 _TYPES = {b"S", b"R", b"I", b"L"}
 
 
@@ -102,6 +104,10 @@ def _molecule(frame: Frame, source: str, told: dict[str, str]) -> Molecule:
         raise InputError(f"{width} words; expected a symbol and x y z", source, frame.line + short)
     position = _positions(frame, columns, source)
     label = [row[columns.symbol].decode("latin-1") for row in frame.rows]
+    wrong = overlong(label)
+    if wrong is not None:
+        message = f"a label of {len(label[wrong])} letters, {label[wrong][:SHOWN]!r}…; expected at most {LONGEST}"
+        raise InputError(message, source, frame.line + wrong)
     element = _elements(label, frame.line, source, told)
     again = coinciding_rows(position)
     if len(again):
@@ -117,7 +123,7 @@ def _positions(frame: Frame, columns: Columns, source: str) -> Floats:
         message = f"{'xyz'[index % 3]} coordinate is {text!r}; expected a finite number"
         return InputError(message, source, frame.line + index // 3)
 
-    return numbers(np.array(words), error).reshape(-1, 3)
+    return numbers(octets_of(words, error), error).reshape(-1, 3)
 
 
 def _elements(labels: list[str], line: int, source: str, told: dict[str, str]) -> Strings:
@@ -159,7 +165,7 @@ def _stated(properties: bytes) -> Columns | None:
     words = properties.split(b":")
     start, place = 0, dict[bytes, int]()
     for name, kind, repeat in zip(words[::3], words[1::3], words[2::3], strict=False):
-        if kind not in _TYPES or not repeat.isdigit() or repeat == b"0":
+        if kind not in _TYPES or not _REPEAT.fullmatch(repeat) or _REPEATED.get(name.lower(), repeat) != repeat:
             return None
         place[name.lower()] = start
         start += int(repeat)

@@ -8,7 +8,7 @@ from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN
 from molviz.model.molecule import Molecule
 from molviz.readers.atoms import coinciding_note, coinciding_rows
-from molviz.readers.numbers import numbers
+from molviz.readers.numbers import numbers, octets_of
 from molviz.readers.reading import Reading
 
 
@@ -25,7 +25,7 @@ def read_xyzr(data: bytes, source: str) -> Reading:
     def error(index: int, text: str) -> InputError:
         return InputError(f"{'xyzr'[index % 4]} is {text!r}; expected a finite number", source, rows[index // 4][0])
 
-    values = numbers(np.array([word for _, words in rows for word in words]), error).reshape(-1, 4)
+    values = numbers(octets_of([word for _, words in rows for word in words], error), error).reshape(-1, 4)
     for row in np.flatnonzero(values[:, 3] <= 0)[:1].tolist():
         raise InputError(f"the radius is {values[row, 3]:g}; expected more than 0", source, rows[row][0])
     again = coinciding_rows(values[:, :3])

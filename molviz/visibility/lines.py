@@ -8,7 +8,7 @@ from molviz.visibility.eye import occluders_of, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.view import View
 
-SLIVER = 0.004  # ångström: faces thinner than this are not drawn; displaced copies of one outline lie ten times closer
+SLIVER = 0.004  # ångström: thinner faces are not drawn; displaced copies of one outline lie ten times closer
 CREASE, OUTLINE, SILHOUETTE, UNDRAWN = range(4)
 ROLES = ("crease", "outline", "silhouette")  # the names of those that are drawn
 
@@ -30,12 +30,13 @@ def is_silhouette(view_map: VisibilityMap) -> Bools:
 
 
 def slivers(view_map: VisibilityMap) -> Bools:
-    """Return which loops enclose less than ``SLIVER`` times their half length."""
+    """Return which loops enclose less than ``SLIVER`` times their half length; less by so much as balls are smaller."""
+    thinnest = SLIVER * min(1.0, float(view_map.spheres.radius.max(initial=0.0)))
     row = view_map.loops.half_edge >> 1
     arcs = view_map.arcs.take(row)
     length = np.abs(arcs.sweep) * np.sqrt((arcs.u**2 + arcs.v**2).sum(axis=1) / 2)
     half = np.add.reduceat(length, view_map.loops.start[:-1]) / 2 if len(row) else np.empty(0)
-    return np.asarray(np.abs(loop_areas(view_map.arcs, view_map.loops)) < SLIVER * half)
+    return np.asarray(np.abs(loop_areas(view_map.arcs, view_map.loops)) < thinnest * half)
 
 
 def depth_jump(view_map: VisibilityMap, view: View) -> Floats:

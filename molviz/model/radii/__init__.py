@@ -1,5 +1,6 @@
 """Radii of atoms: one file per publication beside this module, or the user's own."""
 
+import os
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ import numpy as np
 
 from molviz import toml
 from molviz.arrays import Floats, Strings
-from molviz.errors import InputError
+from molviz.errors import OptionError, expected_instead
 from molviz.model.elements import symbol_of
 from molviz.model.molecule import Molecule
 
@@ -41,14 +42,15 @@ def load_table(name: str) -> RadiiTable:
     """Return a published table by its name in ``TABLES``, or the one in the user's file.
 
     A user's file is TOML as the published ones are (``[elements]``; ``[types]`` and ``[residues]`` for united atoms),
-    or text of two columns, element and radius in ångström, with ``#`` for comments. Raises InputError where there is
+    or text of two columns, element and radius in ångström, with ``#`` for comments. Raises OptionError where there is
     no such file, or it holds a name that is no element or a radius that is not positive and finite.
     """
     if name in TABLES:
         return _table(_toml(Path(__file__).with_name(f"{name}.toml")), TABLES[name], name)
     path = Path(name)
-    if not path.is_file():
-        raise InputError(f"no radii table {name!r}; expected one of {', '.join(TABLES)}, or a file")
+    if not os.path.isfile(name):  # noqa: PTH113 (Path.is_file raises for names too long)
+        expected = expected_instead(name, TABLES, f"one of {', '.join(TABLES)}, or a file")
+        raise OptionError(f"no radii table {name!r}; {expected}")
     return _table(_toml(path) if path.suffix == ".toml" else _two_columns(path), path.name, name)
 
 
@@ -95,19 +97,25 @@ def _by_atom(molecule: Molecule, atoms: Mapping[tuple[str, str], float]) -> Floa
 
 def _toml(path: Path) -> dict[str, Any]:
     try:
-        return toml.loads(path.read_text(encoding="utf-8"))
-    except (toml.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"no radii table: {error}; expected TOML with [elements]", str(path)) from error
+        return toml.read(path)
+    except ValueError as error:
+        raise OptionError(f"no radii table: {error}; expected TOML with [elements]", str(path)) from error
+    except OSError as error:
+        raise OptionError(f"cannot be read: {error.strerror}; expected a table of radii", str(path)) from error
 
 
 def _two_columns(path: Path) -> dict[str, Any]:
     elements = {}
-    for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), start=1):
+    try:
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError as error:
+        raise OptionError(f"cannot be read: {error.strerror}; expected a table of radii", str(path)) from error
+    for number, line in enumerate(lines, start=1):
         words = line.partition("#")[0].split()
         if not words:
             continue
         if len(words) != 2:
-            raise InputError(f"{len(words)} words; expected an element and a radius", str(path), number)
+            raise OptionError(f"{len(words)} words; expected an element and a radius", str(path), number)
         elements[words[0]] = _radius(words[1], words[0], str(path), number)
     return {"elements": elements}
 
@@ -123,13 +131,13 @@ def _table(content: Mapping[str, Any], title: str, name: str) -> RadiiTable:
         rest = _completing(content["completed_by"], name)
         elements, source = {**rest.elements, **elements}, f"{source}; completed by {rest.source}"
     if not elements and not atoms:
-        raise InputError("the radii table is empty; expected [elements]", name)
+        raise OptionError("the radii table is empty; expected [elements]", name)
     return RadiiTable(title, source, elements, atoms, bool(content.get("implicit_hydrogens", False)))
 
 
 def _completing(table: object, name: str) -> RadiiTable:
     if table not in TABLES:
-        raise InputError(f"completed_by is {table!r}; expected one of {', '.join(TABLES)}", name)
+        raise OptionError(f"completed_by is {table!r}; expected one of {', '.join(TABLES)}", name)
     return load_table(str(table))
 
 
@@ -137,7 +145,7 @@ def _section(content: Mapping[str, Any], key: str, name: str, title: str = "") -
     """Return a table of the file, empty where it is missing."""
     section = content.get(key, {})
     if not isinstance(section, Mapping):
-        raise InputError(f"{title}{key} is {section!r}; expected a table of names and values", name)
+        raise OptionError(f"{title}{key} is {section!r}; expected a table of names and values", name)
     return section
 
 
@@ -146,7 +154,7 @@ def _atoms(residues: Mapping[str, Any], types: Mapping[str, float], name: str) -
     for residue in residues:
         for kind, names in _section(residues, residue, name, "residue ").items():
             if kind not in types:
-                raise InputError(f"residue {residue} has atoms of type {kind}; expected one of [types]", name)
+                raise OptionError(f"residue {residue} has atoms of type {kind}; expected one of [types]", name)
             atoms.update({(residue, atom): types[kind] for atom in str(names).split()})
     return atoms
 
@@ -154,7 +162,7 @@ def _atoms(residues: Mapping[str, Any], types: Mapping[str, float], name: str) -
 def _symbol(text: str, name: str) -> str:
     symbol = symbol_of(text)
     if not symbol:
-        raise InputError(f"{text!r} is no element; expected a chemical symbol", name)
+        raise OptionError(f"{text!r} is no element; expected a chemical symbol", name)
     return "H" if symbol == "D" else symbol
 
 
@@ -164,5 +172,5 @@ def _radius(value: object, what: str, name: str, line: int | None = None) -> flo
     except (TypeError, ValueError):
         radius = np.nan
     if not 0 < radius < np.inf:
-        raise InputError(f"radius of {what} is {value!r}; expected a number above 0, in ångström", name, line)
+        raise OptionError(f"radius of {what} is {value!r}; expected a number above 0, in ångström", name, line)
     return radius

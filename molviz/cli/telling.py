@@ -1,0 +1,29 @@
+"""What reaches the terminal: messages and results, and no character that it obeys."""
+
+import json
+from typing import Any
+
+import click
+
+
+def visible(text: str) -> str:
+    """Return a text in one line, control characters (C0, DEL, C1) and what no encoding holds as escapes (``\\x1b``)."""
+    if text.isprintable():
+        return text
+    return "".join(_escaped(letter) for letter in text)
+
+
+def _escaped(letter: str) -> str:
+    code = ord(letter)
+    obeyed = code < 0x20 or 0x7F <= code < 0xA0 or letter in "\u2028\u2029"
+    return letter.encode("unicode_escape").decode("ascii") if obeyed or 0xD800 <= code < 0xE000 else letter
+
+
+def say(*lines: str) -> None:
+    """Write lines to standard error."""
+    click.echo("\n".join(map(visible, lines)), err=True)
+
+
+def tell_json(result: dict[str, Any]) -> None:
+    """Write one JSON object, in ASCII, whatever the names in it: file names need not be text of any encoding."""
+    click.echo(json.dumps(result))
