@@ -28,7 +28,7 @@ from molviz.picture.looks import (
     tone_names,
 )
 from molviz.picture.marks import marks, region_mark
-from molviz.picture.oklab import lightness, mix
+from molviz.picture.oklab import colors_of, lightness, mix
 from molviz.picture.options import Alike, DrawOptions, Subject
 from molviz.picture.picture import (
     SPREAD,
@@ -300,11 +300,6 @@ def alike_with(seen: VisibilityMap | Pieces, view: View, subject: Subject, optio
     tints = composer.tints.tolist() if options.color_by == "entity" else composer.no_tints.tolist()
     tint = dict(zip(subject.entities.chain.tolist(), tints, strict=True))
     return Alike(composer.furnished.free, depths(seen, view, composer.seen), tint, subject.bounds)
-
-
-def colors_of(rows: Ints) -> list[Color]:
-    """Return rows (m, 3) of sRGB as colours."""
-    return [(r, g, b) for r, g, b in rows.tolist()]
 
 
 def _file_order(molecule: Molecule) -> Ints:
