@@ -5,10 +5,10 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.model.entities import ION, LIGAND, WATER
 from molviz.model.molecule import Molecule
-from molviz.picture.coloring import CONTINUOUS, order_of_appearance
+from molviz.picture.coloring import CARBON_TONE, CONTINUOUS
 from molviz.picture.furniture import Label, Ramp, Swatches
+from molviz.picture.oklab import colors_of
 from molviz.picture.options import DrawOptions, Labelled, Subject
-from molviz.picture.picture import Color
 
 PLACEHOLDERS = {  # and the columns of a molecule that they stand for
     "{resn}": "residue_name", "{resi}": "residue", "{chain}": "chain", "{name}": "atom_name", "{element}": "element",
@@ -25,7 +25,9 @@ def legend_of(subject: Subject, options: DrawOptions, fill: Ints) -> Ramp | Swat
     for one in subject.painted:
         painted |= one.atoms
     names = _names(subject, scheme)
-    entries = [(name, _color(fill[row])) for name, row in _first_rows(names, ~painted & (names != ""))]
+    wanted = ~painted & (names != "")
+    row = _rows_shown(names, wanted, np.isin(subject.molecule.element, CARBON_TONE))
+    entries = zip(row, colors_of(fill[list(row.values())]), strict=True)
     return Swatches([*entries, *((one.name, one.color) for one in subject.painted)], _TITLES.get(scheme, ""))
 
 
@@ -53,17 +55,12 @@ def _names(subject: Subject, scheme: str) -> "np.ndarray[tuple[int], np.dtype[np
     return np.where(entities.entity >= 0, of_polymer[entities.entity], kinds)
 
 
-def _first_rows(names: "np.ndarray[tuple[int], np.dtype[np.str_]]", wanted: Bools) -> list[tuple[str, int]]:
-    """Each name once, in order of appearance, with its first row."""
+def _rows_shown(names: "np.ndarray[tuple[int], np.dtype[np.str_]]", wanted: Bools, main: Bools) -> dict[str, int]:
+    """Each name once, in order of appearance, with its first row of the ``main`` ones (n,) or else its first row."""
     rows = np.flatnonzero(wanted)
-    order = order_of_appearance(names[rows])
-    first = dict(zip(reversed(names[rows].tolist()), reversed(rows.tolist()), strict=True))
-    return [(name, first[name]) for name in order]
-
-
-def _color(row: Ints) -> Color:
-    red, green, blue = row.tolist()
-    return red, green, blue
+    first = dict.fromkeys(names[rows].tolist(), -1)
+    rows = rows[np.argsort(~main[rows], kind="stable")][::-1]
+    return first | dict(zip(names[rows].tolist(), rows.tolist(), strict=True))
 
 
 def labels_of(subject: Subject, seen: Ints, page: Floats, near: Floats) -> list[Label]:
