@@ -1,5 +1,7 @@
 """What is written beside a drawing: the legend of its colours, and labels of atoms."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
@@ -63,28 +65,28 @@ def _rows_shown(names: "np.ndarray[tuple[int], np.dtype[np.str_]]", wanted: Bool
     return first | dict(zip(names[rows].tolist(), rows.tolist(), strict=True))
 
 
-def labels_of(subject: Subject, seen: Ints, page: Floats, near: Floats) -> list[Label]:
-    """Return the labels; ``seen`` are spheres, ``page`` (s, 2) and ``near`` (s,) places and nearness of all spheres.
+def labels_of(subject: Subject, seen: Ints, area: Floats, place: Callable[[int], Floats]) -> list[Label]:
+    """Return the labels of ``seen`` spheres; ``area`` (s,) is what is seen of each of all, ``place`` tells where (2,).
 
     A text that names atoms stands at each atom, one that names residues at each residue, any other once; at the
-    nearest of its atoms that are seen, and nowhere if none is.
+    one of its atoms of which most is seen, and nowhere if none is.
     """
-    return [label for wanted in subject.labelled for label in _labels(subject, wanted, seen, page, near)]
+    return [label for wanted in subject.labelled for label in _labels(subject, wanted, seen, area, place)]
 
 
-def _labels(subject: Subject, wanted: Labelled, seen: Ints, page: Floats, near: Floats) -> list[Label]:
+def _labels(
+    subject: Subject, wanted: Labelled, seen: Ints, area: Floats, place: Callable[[int], Floats]
+) -> list[Label]:
     spheres = seen[wanted.atoms[subject.atom[seen]]]
     if not len(spheres):
         return []
     molecule = subject.molecule.take(subject.atom[spheres])
     template = wanted.template or _usual_template(molecule)
-    order = np.lexsort((-near[spheres], _units(molecule, template)))
+    order = np.lexsort((-area[spheres], _units(molecule, template)))
     unit = _units(molecule, template)[order]
     first = order[np.append(True, unit[1:] != unit[:-1])]
-    return [
-        Label(float(page[spheres[k], 0]), float(page[spheres[k], 1]), _filled(template, molecule, k))
-        for k in np.sort(first).tolist()
-    ]
+    places = [(place(int(spheres[k])), k) for k in np.sort(first).tolist()]
+    return [Label(float(x), float(y), _filled(template, molecule, k)) for (x, y), k in places]
 
 
 def _usual_template(molecule: Molecule) -> str:

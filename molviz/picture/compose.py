@@ -1,7 +1,7 @@
 """Geometry becomes a picture: what things are comes in, what they look like is decided here, layer by layer."""
 
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -40,7 +40,16 @@ from molviz.picture.picture import (
     StackedLayer,
     StrokeLayer,
 )
-from molviz.picture.regions import Regions, closed_chains, merged_regions, shape_of, shapes_of, stacked
+from molviz.picture.regions import (
+    Regions,
+    closed_chains,
+    face_areas,
+    merged_regions,
+    point_on,
+    shape_of,
+    shapes_of,
+    stacked,
+)
 from molviz.picture.shading import ball_gradients, contact_steps, light_bands
 from molviz.picture.tints import entity_tints
 from molviz.visibility.eye import projection_of
@@ -81,10 +90,9 @@ class MapComposer:
         """Return the labels, and the discs x, y, r that they stay off."""
         if not self.subject.labelled:
             return [], np.empty((0, 3))
-        projection = projection_of(self.view)
-        page, near = projection.page_points(self.map.spheres.center), nearness(self.map, self.view)
-        images = images_of(self.map.horizons().take(self.seen), projection)
-        return labels_of(self.subject, self.seen, page, near), np.column_stack([images.c, images.major()])
+        images = images_of(self.map.horizons().take(self.seen), projection_of(self.view))
+        labels = labels_of(self.subject, self.seen, face_areas(self.map), partial(point_on, self.map))
+        return labels, np.column_stack([images.c, images.major()])
 
     @property
     def no_tints(self) -> Ints:
