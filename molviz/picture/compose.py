@@ -11,7 +11,7 @@ from molviz.geometry.planar_map import Loops
 from molviz.geometry.rows import offsets
 from molviz.model.molecule import Molecule
 from molviz.picture.captions import labels_of, legend_of
-from molviz.picture.chains import linked, merged
+from molviz.picture.chains import linked, merged_arcs
 from molviz.picture.coloring import order_of_appearance
 from molviz.picture.furniture import Box, Furnished, Furniture, Label, Ramp, Swatches, furnish
 from molviz.picture.hatching import LEVELS, hatched, level_distance, tone_levels
@@ -157,7 +157,7 @@ class MapComposer:
         """Return the fills."""
         if self.options.is_mask or self.fill == "ball" or (self.options.parts or self.style.parts) == "atoms":
             return self.atoms()
-        regions, first = self.merged
+        regions, first = self.color_regions
         colors = colors_of(self.looks.fill[first])
         names = tone_names(str(self.options.color_by), self.subject.seen_molecule)
         chain = self.subject.seen_molecule.chain
@@ -165,7 +165,7 @@ class MapComposer:
         return FillLayer("regions", regions.paths, colors, named, SPREAD)
 
     @cached_property
-    def merged(self) -> tuple[Regions, Ints]:
+    def color_regions(self) -> tuple[Regions, Ints]:
         """The regions of one chain and one colour, and a sphere of each."""
         chain = np.unique(self.subject.seen_molecule.chain, return_inverse=True)[1]
         keys = np.column_stack([chain, self.looks.fill])
@@ -373,7 +373,7 @@ def _strokes_of_pieces(
     order = np.argsort(of_chain, kind="stable")
     ordered = closed_chains(Loops(chains.half_edge, chains.start, of_chain), order)
     ordered = ordered._replace(closed=chains.closed[order])
-    rows, start = merged(arcs, on_curves.curve, ordered)
+    rows, start = merged_arcs(arcs, on_curves.curve, ordered)
     return StrokeLayer(name, Paths(rows, start, offsets(of_chain, count)), width, options.chosen_style().lines.color)
 
 

@@ -8,7 +8,7 @@ from molviz.arrays import Floats, Ints
 from molviz.curves import Paths, PlaneArcs
 from molviz.geometry.planar_map import Loops, loop_areas, loops, merged_faces
 from molviz.geometry.rows import lists_taken, offsets
-from molviz.picture.chains import Chains, merged
+from molviz.picture.chains import Chains, merged_arcs
 from molviz.picture.hatching import hatched
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 
@@ -71,7 +71,7 @@ def closed_chains(boundary: Loops, rows: Ints) -> Chains:
 
 def shapes_of(arcs: PlaneArcs, curve: Ints, chains: Chains, shape: Ints | None = None) -> Paths:
     """Return chains as paths; all of one shape unless ``shape`` says of which (ascending from 0)."""
-    rows, start = merged(arcs, curve, chains)
+    rows, start = merged_arcs(arcs, curve, chains)
     shape = np.zeros(len(start) - 1, dtype=np.int64) if shape is None else shape
     return Paths(rows, start, offsets(shape, int(shape.max()) + 1 if len(shape) else 0))
 
