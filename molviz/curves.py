@@ -77,6 +77,13 @@ class PlaneArcs(NamedTuple):
         return PlaneArcs(self.c * scale + shift, self.u * scale, self.v * scale, self.start, self.sweep)
 
 
+def straight_pieces(start: Floats, end: Floats) -> PlaneArcs:
+    """Return the straight pieces from start to end (k, 2): half turns, from −u to u, of ellipses without width."""
+    half_turn = np.full(len(start), np.pi)
+    half = (end - start) / 2
+    return PlaneArcs((start + end) / 2, half, np.zeros_like(half), half_turn, half_turn)
+
+
 class Paths(NamedTuple):
     """Shapes made of loops made of arcs: CSR in two levels.
 

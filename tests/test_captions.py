@@ -91,8 +91,8 @@ def test_legends_show_the_colours_of_the_scheme() -> None:
     assert dict(legend("element").entries)["Fe"] == load_style("flat").colors.element["Fe"]
     assert dict(legend("residue").entries)["TRP"] == load_style("flat").colors.residue["TRP"]
     entities = dict(legend("entity").entries)
-    assert entities["chains B, A"] in (TIDE.entity[0].carbon, TIDE.entity[0].hetero)
-    assert entities["chain D"] in (TIDE.entity[1].carbon, TIDE.entity[1].hetero) and entities["Zn"] == TIDE.metal
+    assert entities["chains B, A"] == TIDE.entity[0].carbon and entities["chain D"] == TIDE.entity[1].carbon
+    assert entities["Zn"] == TIDE.metal
 
 
 def test_legends_of_numbers_are_ramps() -> None:
@@ -123,8 +123,8 @@ def test_the_last_override_wins() -> None:
 def labels(*texts: str, seen: np.ndarray | None = None) -> list[tuple[float, str]]:
     about = subject(labelled=tuple(labelled_of(SCENE.molecule, text) for text in texts))
     seen = about.atom if seen is None else seen
-    page, near = SCENE.spheres.center[:, :2], SCENE.spheres.center[:, 2]
-    return [(round(label.x / 4.0), label.text) for label in labels_of(about, seen, page, near)]
+    page, area = SCENE.spheres.center[:, :2], SCENE.spheres.center[:, 2]
+    return [(round(label.x / 4.0), label.text) for label in labels_of(about, seen, area, lambda row: page[row])]
 
 
 @pytest.mark.parametrize(
@@ -141,7 +141,7 @@ def labels(*texts: str, seen: np.ndarray | None = None) -> list[tuple[float, str
         ("resn XYZ=nobody", []),
     ],
 )
-def test_labels_stand_at_the_nearest_atom_of_what_they_name(text: str, expected: list[tuple[float, str]]) -> None:
+def test_labels_stand_at_the_atom_of_which_most_is_seen(text: str, expected: list[tuple[float, str]]) -> None:
     assert labels(text) == expected
 
 

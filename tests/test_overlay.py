@@ -9,7 +9,7 @@ from molviz.curves import PlaneArcs
 from molviz.geometry.planar_map import Loops, loops, merged_faces, oriented
 from molviz.model.spheres import Spheres
 from molviz.visibility.eye import eye_coordinates, occluders_of
-from molviz.visibility.overlay import drop_at_rim, on_ledges, seen_of_copies, shaded_sides, skirts
+from molviz.visibility.overlay import drop_at_edge, on_ledges, seen_of_copies, shaded_sides, skirts
 from molviz.visibility.view import View, file_axes
 from tests.oracle import random_spheres
 from tests.scenes import map_of
@@ -77,7 +77,7 @@ def test_the_rim_of_a_skirt_lies_a_drop_below_the_horizon() -> None:
     """A ball of 1 above a floor: the skirt shows on the floor exactly if it lies deeper than the drop at the rim."""
     for depth, shows in ((2.9, False), (3.1, True)):
         low = 3.0 + np.sqrt(2 * 1.0 * 0.5 + 0.25)
-        assert np.isclose(drop_at_rim(np.array([1.0]), 0.5, low), 3.0)
+        assert np.isclose(drop_at_edge(np.array([1.0]), 0.5, low), 3.0)
         floor = Spheres(np.array([[0.0, 0.0, -1000.0 - depth]]), np.array([1000.0]))
         spheres = Spheres(np.concatenate([[[0.0, 0.0, 0.0]], floor.center]), np.array([1.0, 1000.0]))
         view = View(np.eye(3), np.zeros(3))

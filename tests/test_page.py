@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from molviz.curves import PlaneArcs
-from molviz.picture.chains import linked, merged
+from molviz.picture.chains import linked, merged_arcs
 from molviz.picture.coloring import by_index, on_ramp
 from molviz.picture.colors import parse_color
 from molviz.picture.page import Page, parse_length
@@ -143,7 +143,7 @@ def test_a_line_that_leaves_a_circle_and_comes_back_to_it_begins_at_its_loose_en
     arcs = PlaneArcs(np.zeros((4, 2)), np.tile([1.0, 0], (4, 1)), np.tile([0, 1.0], (4, 1)), np.arange(4.0), turn)
     chains = linked(origin, origin + 1, curve, np.arange(4))
     assert chains.closed.tolist() == [False] and (chains.half_edge >> 1).tolist() in ([1, 3, 2, 0], [0, 2, 3, 1])
-    line, start = merged(arcs, curve, chains)
+    line, start = merged_arcs(arcs, curve, chains)
     forwards = chains.half_edge[0] == 2
     assert start.tolist() == [0, 3] and line.sweep.tolist() == ([1, 1, 0.5] if forwards else [-0.5, -1, -1])
     assert line.start[0] == (1.0 if forwards else 0.5)
@@ -154,7 +154,7 @@ def test_a_closed_line_begins_where_no_arc_is_cut_in_two() -> None:
     origin, target, curve = np.arange(3), np.array([1, 2, 0]), np.array([7, 8, 7])
     turn = np.array([0.5, 1.0, 0.25])
     arcs = PlaneArcs(np.zeros((3, 2)), np.tile([1.0, 0], (3, 1)), np.tile([0, 1.0], (3, 1)), np.arange(3.0), turn)
-    line, start = merged(arcs, curve, linked(origin, target, curve, np.arange(3)))
+    line, start = merged_arcs(arcs, curve, linked(origin, target, curve, np.arange(3)))
     assert start.tolist() == [0, 2] and sorted(np.abs(line.sweep).tolist()) == [0.75, 1.0]
 
 

@@ -15,7 +15,7 @@ from molviz.picture.style import Shade, ShadeStep, load_style
 from molviz.pipeline.inputs import InputOptions, load
 from molviz.visibility.horizon_runs import horizon_runs
 from molviz.visibility.map import VisibilityMap
-from molviz.visibility.overlay import drop_at_rim, seen_spheres, skirts
+from molviz.visibility.overlay import drop_at_edge, seen_spheres, skirts
 from molviz.visibility.scene import Scene
 from molviz.visibility.view import View, principal_axes
 from tests.oracle import heights, winding
@@ -58,7 +58,7 @@ def test_contact_shade_is_where_some_skirt_is_above_all_spheres() -> None:
     assert opacity == [step.opacity for step, _ in hung] and len(hung) > 2
     surface = heights(view_map.spheres, points).max(axis=1)
     for number, (step, rows) in enumerate(hung):
-        assert np.all(jumps[rows] > drop_at_rim(spheres.radius[rows], step.reach, step.low))
+        assert np.all(jumps[rows] > drop_at_edge(spheres.radius[rows], step.reach, step.low))
         skirt = heights(skirts(spheres, rows, step.reach, step.low, view), points).max(axis=1)
         found, clear = inside(shape_of(steps, number), points)
         assert clear.mean() > 0.7 and np.any(found[clear])

@@ -29,9 +29,9 @@ def models_of_object(x: object) -> Models | None:
     Raises InputError where the object has no coordinates.
     """
     for kind in type(x).__mro__:
-        found = ADAPTERS.get((kind.__module__.partition(".")[0], kind.__name__))
-        if found:
-            module, name = found
+        adapter = ADAPTERS.get((kind.__module__.partition(".")[0], kind.__name__))
+        if adapter:
+            module, name = adapter
             models: Models = getattr(import_module(f"molviz.adapters.{module}"), name)(x)
             return models
     return None

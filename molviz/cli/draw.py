@@ -42,7 +42,10 @@ drawing_options = applied(
     shared("color", multiple=True, metavar="SELECTION=COLOR", help="Over any scheme; repeatable, the last one wins."),
     shared("palette", show_default=True, metavar="NAME|FILE.toml", help=f"{', '.join(PALETTES)}, or a file."),
     shared("parts", help="A region for each atom, or one for all of a colour and chain (default: the style's)."),
-    shared("label", multiple=True, metavar="SELECTION[=TEXT]", help="{resn} {resi} {name} {chain} {element} in TEXT."),
+    shared(
+        "label", multiple=True, metavar="SELECTION[=TEXT]",
+        help="Write its name or TEXT, which may hold {resn} {resi} {name} {chain} {element}; repeatable.",
+    ),
     shared("scale_bar", type=SCALE_BAR, is_flag=False, flag_value="auto", metavar="[ÅNGSTRÖM]", help="A scale bar."),
     shared("title", metavar="TEXT", help="Written above the drawing."),
     shared("legend", help="What the colours mean."),

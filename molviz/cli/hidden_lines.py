@@ -69,7 +69,7 @@ def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
       molviz hidden-lines 1a8o.pdb --as discs -o it.ps       its atoms as discs
       molviz hidden-lines --random 10000                     the statistics of Franklin's Fig. 8
       molviz hidden-lines --random 1000 -o gas.svg           the drawing
-      molviz hidden-lines --text CSE -o cse.hpgl             the same for a pen plotter
+      molviz hidden-lines --text CSE -o cse.hpgl             his lettered scene, for a pen plotter
     """
     if options["fill"] not in ("flat", "none"):
         raise click.UsageError(f"no fill {options['fill']!r}; expected flat or none")

@@ -1,14 +1,16 @@
 """What is written beside a drawing: the legend of its colours, and labels of atoms."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.model.entities import ION, LIGAND, WATER
 from molviz.model.molecule import Molecule
-from molviz.picture.coloring import CONTINUOUS, order_of_appearance
+from molviz.picture.coloring import CARBON_TONE, CONTINUOUS
 from molviz.picture.furniture import Label, Ramp, Swatches
+from molviz.picture.oklab import colors_of
 from molviz.picture.options import DrawOptions, Labelled, Subject
-from molviz.picture.picture import Color
 
 PLACEHOLDERS = {  # and the columns of a molecule that they stand for
     "{resn}": "residue_name", "{resi}": "residue", "{chain}": "chain", "{name}": "atom_name", "{element}": "element",
@@ -25,7 +27,9 @@ def legend_of(subject: Subject, options: DrawOptions, fill: Ints) -> Ramp | Swat
     for one in subject.painted:
         painted |= one.atoms
     names = _names(subject, scheme)
-    entries = [(name, _color(fill[row])) for name, row in _first_rows(names, ~painted & (names != ""))]
+    wanted = ~painted & (names != "")
+    row = _rows_shown(names, wanted, np.isin(subject.molecule.element, CARBON_TONE))
+    entries = zip(row, colors_of(fill[list(row.values())]), strict=True)
     return Swatches([*entries, *((one.name, one.color) for one in subject.painted)], _TITLES.get(scheme, ""))
 
 
@@ -53,41 +57,36 @@ def _names(subject: Subject, scheme: str) -> "np.ndarray[tuple[int], np.dtype[np
     return np.where(entities.entity >= 0, of_polymer[entities.entity], kinds)
 
 
-def _first_rows(names: "np.ndarray[tuple[int], np.dtype[np.str_]]", wanted: Bools) -> list[tuple[str, int]]:
-    """Each name once, in order of appearance, with its first row."""
+def _rows_shown(names: "np.ndarray[tuple[int], np.dtype[np.str_]]", wanted: Bools, main: Bools) -> dict[str, int]:
+    """Each name once, in order of appearance, with its first row of the ``main`` ones (n,) or else its first row."""
     rows = np.flatnonzero(wanted)
-    order = order_of_appearance(names[rows])
-    first = dict(zip(reversed(names[rows].tolist()), reversed(rows.tolist()), strict=True))
-    return [(name, first[name]) for name in order]
+    first = dict.fromkeys(names[rows].tolist(), -1)
+    rows = rows[np.argsort(~main[rows], kind="stable")][::-1]
+    return first | dict(zip(names[rows].tolist(), rows.tolist(), strict=True))
 
 
-def _color(row: Ints) -> Color:
-    red, green, blue = row.tolist()
-    return red, green, blue
-
-
-def labels_of(subject: Subject, seen: Ints, page: Floats, near: Floats) -> list[Label]:
-    """Return the labels; ``seen`` are spheres, ``page`` (s, 2) and ``near`` (s,) places and nearness of all spheres.
+def labels_of(subject: Subject, seen: Ints, area: Floats, place: Callable[[int], Floats]) -> list[Label]:
+    """Return the labels of ``seen`` spheres; ``area`` (s,) is what is seen of each of all, ``place`` tells where (2,).
 
     A text that names atoms stands at each atom, one that names residues at each residue, any other once; at the
-    nearest of its atoms that are seen, and nowhere if none is.
+    one of its atoms of which most is seen, and nowhere if none is.
     """
-    return [label for wanted in subject.labelled for label in _labels(subject, wanted, seen, page, near)]
+    return [label for wanted in subject.labelled for label in _labels(subject, wanted, seen, area, place)]
 
 
-def _labels(subject: Subject, wanted: Labelled, seen: Ints, page: Floats, near: Floats) -> list[Label]:
+def _labels(
+    subject: Subject, wanted: Labelled, seen: Ints, area: Floats, place: Callable[[int], Floats]
+) -> list[Label]:
     spheres = seen[wanted.atoms[subject.atom[seen]]]
     if not len(spheres):
         return []
     molecule = subject.molecule.take(subject.atom[spheres])
     template = wanted.template or _usual_template(molecule)
-    order = np.lexsort((-near[spheres], _units(molecule, template)))
+    order = np.lexsort((-area[spheres], _units(molecule, template)))
     unit = _units(molecule, template)[order]
     first = order[np.append(True, unit[1:] != unit[:-1])]
-    return [
-        Label(float(page[spheres[k], 0]), float(page[spheres[k], 1]), _filled(template, molecule, k))
-        for k in np.sort(first).tolist()
-    ]
+    places = [(place(int(spheres[k])), k) for k in np.sort(first).tolist()]
+    return [Label(float(x), float(y), _filled(template, molecule, k)) for (x, y), k in places]
 
 
 def _usual_template(molecule: Molecule) -> str:

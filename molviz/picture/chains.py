@@ -60,7 +60,7 @@ def _walked(partner: Ints) -> tuple[Ints, Ints, Bools]:
     return np.array(order, dtype=np.int64), np.array(start), np.array(closed, dtype=bool)
 
 
-def merged(arcs: PlaneArcs, curve: Ints, chains: Chains) -> tuple[PlaneArcs, Ints]:
+def merged_arcs(arcs: PlaneArcs, curve: Ints, chains: Chains) -> tuple[PlaneArcs, Ints]:
     """Return the chains' arcs and CSR offsets, with neighbours on one curve merged into one arc.
 
     A closed chain that lies on one curve altogether becomes a whole turn.

@@ -8,7 +8,7 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints, Strings
 from molviz.model.entities import WATER, Entities, is_metal
 from molviz.model.molecule import Molecule
-from molviz.picture.oklab import mix
+from molviz.picture.oklab import colors_of, mix
 from molviz.picture.palette import Palette
 from molviz.picture.picture import Color
 from molviz.picture.style import Style
@@ -134,4 +134,4 @@ def on_ramp(
     stops = np.array(ramp, dtype=float)
     channels = [np.interp(place, np.arange(len(stops)), stops[:, channel]) for channel in range(3)]
     rows = np.where(known[:, None], np.round(np.stack(channels, axis=1)), unknown).astype(int)
-    return [(int(r), int(g), int(b)) for r, g, b in rows.tolist()]
+    return colors_of(rows)

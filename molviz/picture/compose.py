@@ -1,7 +1,7 @@
 """Geometry becomes a picture: what things are comes in, what they look like is decided here, layer by layer."""
 
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from molviz.geometry.planar_map import Loops
 from molviz.geometry.rows import offsets
 from molviz.model.molecule import Molecule
 from molviz.picture.captions import labels_of, legend_of
-from molviz.picture.chains import linked, merged
+from molviz.picture.chains import linked, merged_arcs
 from molviz.picture.coloring import order_of_appearance
 from molviz.picture.furniture import Box, Furnished, Furniture, Label, Ramp, Swatches, furnish
 from molviz.picture.hatching import LEVELS, hatched, level_distance, tone_levels
@@ -28,7 +28,7 @@ from molviz.picture.looks import (
     tone_names,
 )
 from molviz.picture.marks import marks, region_mark
-from molviz.picture.oklab import lightness, mix
+from molviz.picture.oklab import colors_of, lightness, mix
 from molviz.picture.options import Alike, DrawOptions, Subject
 from molviz.picture.picture import (
     SPREAD,
@@ -40,7 +40,16 @@ from molviz.picture.picture import (
     StackedLayer,
     StrokeLayer,
 )
-from molviz.picture.regions import Regions, closed_chains, merged_regions, shape_of, shapes_of, stacked
+from molviz.picture.regions import (
+    Regions,
+    closed_chains,
+    face_areas,
+    merged_regions,
+    point_on,
+    shape_of,
+    shapes_of,
+    stacked,
+)
 from molviz.picture.shading import ball_gradients, contact_steps, light_bands
 from molviz.picture.tints import entity_tints
 from molviz.visibility.eye import projection_of
@@ -81,10 +90,9 @@ class MapComposer:
         """Return the labels, and the discs x, y, r that they stay off."""
         if not self.subject.labelled:
             return [], np.empty((0, 3))
-        projection = projection_of(self.view)
-        page, near = projection.page_points(self.map.spheres.center), nearness(self.map, self.view)
-        images = images_of(self.map.horizons().take(self.seen), projection)
-        return labels_of(self.subject, self.seen, page, near), np.column_stack([images.c, images.major()])
+        images = images_of(self.map.horizons().take(self.seen), projection_of(self.view))
+        labels = labels_of(self.subject, self.seen, face_areas(self.map), partial(point_on, self.map))
+        return labels, np.column_stack([images.c, images.major()])
 
     @property
     def no_tints(self) -> Ints:
@@ -149,7 +157,7 @@ class MapComposer:
         """Return the fills."""
         if self.options.is_mask or self.fill == "ball" or (self.options.parts or self.style.parts) == "atoms":
             return self.atoms()
-        regions, first = self.merged
+        regions, first = self.color_regions
         colors = colors_of(self.looks.fill[first])
         names = tone_names(str(self.options.color_by), self.subject.seen_molecule)
         chain = self.subject.seen_molecule.chain
@@ -157,7 +165,7 @@ class MapComposer:
         return FillLayer("regions", regions.paths, colors, named, SPREAD)
 
     @cached_property
-    def merged(self) -> tuple[Regions, Ints]:
+    def color_regions(self) -> tuple[Regions, Ints]:
         """The regions of one chain and one colour, and a sphere of each."""
         chain = np.unique(self.subject.seen_molecule.chain, return_inverse=True)[1]
         keys = np.column_stack([chain, self.looks.fill])
@@ -302,11 +310,6 @@ def alike_with(seen: VisibilityMap | Pieces, view: View, subject: Subject, optio
     return Alike(composer.furnished.free, depths(seen, view, composer.seen), tint, subject.bounds)
 
 
-def colors_of(rows: Ints) -> list[Color]:
-    """Return rows (m, 3) of sRGB as colours."""
-    return [(r, g, b) for r, g, b in rows.tolist()]
-
-
 def _file_order(molecule: Molecule) -> Ints:
     """The rank of each atom when chains and, in them, residues stay together in order of appearance."""
     chain = order_of_appearance(molecule.chain)
@@ -370,7 +373,7 @@ def _strokes_of_pieces(
     order = np.argsort(of_chain, kind="stable")
     ordered = closed_chains(Loops(chains.half_edge, chains.start, of_chain), order)
     ordered = ordered._replace(closed=chains.closed[order])
-    rows, start = merged(arcs, on_curves.curve, ordered)
+    rows, start = merged_arcs(arcs, on_curves.curve, ordered)
     return StrokeLayer(name, Paths(rows, start, offsets(of_chain, count)), width, options.chosen_style().lines.color)
 
 

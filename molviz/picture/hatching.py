@@ -3,9 +3,8 @@
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.curves import Paths, PlaneArcs
+from molviz.curves import Paths, PlaneArcs, straight_pieces
 from molviz.geometry.rows import expand
-from molviz.picture.ink import straight_pieces
 
 LEVELS = 6  # of tone, each with its own distance of lines
 WHITE = 96.0  # L* from which on nothing is hatched

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.curves import Paths, PlaneArcs
+from molviz.curves import Paths, PlaneArcs, straight_pieces
 from molviz.geometry.rows import expand, lists_taken, offsets
 from molviz.vectors import cross, dot
 from molviz.visibility.horizon_runs import HorizonRuns
@@ -282,13 +282,6 @@ def _loops(
     loop_start = np.append(loop_first, len(order))
     shape_start = offsets(loop[order][loop_first], len(pieces))
     return Paths(everything.take(order), loop_start, shape_start)
-
-
-def straight_pieces(start: Floats, end: Floats) -> PlaneArcs:
-    """Return straight pieces as halves of ellipses without width."""
-    half = (end - start) / 2
-    turn = np.full(len(start), np.pi)
-    return PlaneArcs((start + end) / 2, half, np.zeros_like(half), turn, turn)
 
 
 def arcs_through(start: Floats, middle: Floats, end: Floats) -> PlaneArcs:

@@ -18,6 +18,7 @@ from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.view import View
 
 NEARER_BY = 0.7  # of its radius: where a sphere's surface, on average, lies before its centre
+SHALLOWEST = 3.0  # ångström, about an atom: in flatter molecules what is far would be chance, and differ for two eyes
 
 
 class Looks(NamedTuple):
@@ -27,7 +28,7 @@ class Looks(NamedTuple):
     ink: Ints  # (s, 3) of inner lines
     shade: Ints  # (s, 3) of contact shade
     group: Ints  # (s,) equal for spheres of one polymer chain or one ligand
-    far: Floats  # (s,) 0 for the nearest that is seen, 1 for the farthest
+    far: Floats  # (s,) 0 for the nearest that is seen, 1 for the farthest unless the drawing is shallow
 
 
 def nearness(view_map: VisibilityMap, view: View) -> Floats:
@@ -43,10 +44,13 @@ def depths(view_map: VisibilityMap, view: View, seen: Ints) -> tuple[Depth, Dept
 
 
 def distances(view_map: VisibilityMap, view: View, depth: Depth, nearer_by: float = 0.0) -> Floats:
-    """Return how far spheres (s,) are, 0 for the nearest and 1 for the farthest nearness of ``depth``."""
+    """Return how far spheres (s,) are, 0 for the nearest and 1 for the farthest nearness of ``depth``.
+
+    Less than 1 for the farthest where all lie within SHALLOWEST.
+    """
     near = nearness(view_map, view) + nearer_by * view_map.spheres.radius
     low, high = depth
-    return np.clip((high - near) / max(high - low, np.finfo(float).tiny), 0.0, 1.0)
+    return np.clip((high - near) / max(high - low, SHALLOWEST), 0.0, 1.0)
 
 
 def groups(molecule: Molecule, entities: Entities) -> Ints:

@@ -4,12 +4,35 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Ints
+from molviz.arrays import Floats, Ints
 from molviz.curves import Paths, PlaneArcs
-from molviz.geometry.planar_map import Loops, loops, merged_faces
+from molviz.geometry.planar_map import Loops, loop_areas, loops, merged_faces
 from molviz.geometry.rows import lists_taken, offsets
-from molviz.picture.chains import Chains, merged
+from molviz.picture.chains import Chains, merged_arcs
+from molviz.picture.hatching import hatched
 from molviz.visibility.map import BACKGROUND, VisibilityMap
+
+CHORDS = 9  # level ones across a region, to find where it is wide
+
+
+def face_areas(view_map: VisibilityMap) -> Floats:
+    """Return the area on the page (s,), Å², on which each sphere is seen."""
+    seen = view_map.loops.face != BACKGROUND
+    area = loop_areas(view_map.arcs, view_map.loops)[seen]
+    return np.asarray(np.bincount(view_map.loops.face[seen], area, len(view_map.spheres.radius)), dtype=float)
+
+
+def point_on(view_map: VisibilityMap, sphere: int) -> Floats:
+    """Return a point (2,) of the page, ångström, at which a sphere with a face is seen, not close to where it ends.
+
+    It is the middle of the longest of some level chords.
+    """
+    chains = closed_chains(view_map.loops, np.flatnonzero(view_map.loops.face == sphere))
+    paths = shapes_of(view_map.arcs, view_map.curve_arcs.curve, chains)
+    arcs = paths.arcs
+    height = np.concatenate([arcs.at(arcs.start + share * arcs.sweep)[:, 1] for share in (0.0, 0.25, 0.5, 0.75)])
+    chords = hatched(paths, float(np.ptp(height)) / CHORDS, 0.0).arcs
+    return np.asarray(chords.c[np.argmax(np.abs(chords.u[:, 0]))])
 
 
 def shape_of(paths: Paths, shape: int) -> Paths:
@@ -48,7 +71,7 @@ def closed_chains(boundary: Loops, rows: Ints) -> Chains:
 
 def shapes_of(arcs: PlaneArcs, curve: Ints, chains: Chains, shape: Ints | None = None) -> Paths:
     """Return chains as paths; all of one shape unless ``shape`` says of which (ascending from 0)."""
-    rows, start = merged(arcs, curve, chains)
+    rows, start = merged_arcs(arcs, curve, chains)
     shape = np.zeros(len(start) - 1, dtype=np.int64) if shape is None else shape
     return Paths(rows, start, offsets(shape, int(shape.max()) + 1 if len(shape) else 0))
 

@@ -15,7 +15,7 @@ from molviz.visibility.eye import projection_of
 from molviz.visibility.horizon_runs import HorizonRuns
 from molviz.visibility.map import VisibilityMap
 from molviz.visibility.overlay import (
-    drop_at_rim,
+    drop_at_edge,
     on_ledges,
     seen_of_copies,
     seen_spheres,
@@ -57,7 +57,7 @@ def contact_steps(
 
 def _hung_from(spheres: Spheres, jumps: Floats, view: View, step: ShadeStep) -> Ints:
     """The spheres whose skirts can be seen: those with something deeper than the drop behind their edges."""
-    drop = drop_at_rim(spheres.radius, step.reach, step.low)
+    drop = drop_at_edge(spheres.radius, step.reach, step.low)
     rows = np.flatnonzero((drop > 0) & (jumps > drop))
     if step.reach <= LEDGE_FROM:
         return rows

@@ -43,4 +43,4 @@ def refuse_eye_among(spheres: Spheres, view: View) -> None:
     nearest = float(np.max(eye_coordinates(spheres, view).center[:, 2] + spheres.radius))
     if nearest >= 0:
         needed = view.distance + nearest
-        raise InputError(f"the eye is not in front of all atoms; expected a distance above {needed:.2f} Å")
+        raise InputError(f"perspective: the eye is not in front of all atoms; expected more than {needed:.2f} Å")

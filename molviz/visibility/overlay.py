@@ -41,7 +41,7 @@ def skirts(spheres: Spheres, rows: Ints, reach: float, low: float, view: View) -
     return projection_of(view).receded(enlarged, low)
 
 
-def drop_at_rim(radius: Floats, reach: float, low: float) -> Floats:
+def drop_at_edge(radius: Floats, reach: float, low: float) -> Floats:
     """Return how deep below its sphere's horizon a skirt meets the line of sight past it: ``low − √(2 r R + R²)``."""
     return low - np.sqrt(2 * radius * reach + reach**2)
 

@@ -5,7 +5,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from molviz.arrays import Floats
-from molviz.curves import Paths, PlaneArcs
+from molviz.curves import Paths, straight_pieces
 from molviz.picture.picture import FillLayer, StrokeLayer, TextLayer
 
 Piece: TypeAlias = FillLayer | StrokeLayer | TextLayer
@@ -33,17 +33,10 @@ def rectangles(boxes: Floats) -> Paths:
 def polygons(corners: Floats) -> Paths:
     """Return one closed shape for each list of corners (k, m, 2)."""
     count, sides = corners.shape[:2]
-    arcs = straight(corners.reshape(-1, 2), np.roll(corners, -1, axis=1).reshape(-1, 2))
+    arcs = straight_pieces(corners.reshape(-1, 2), np.roll(corners, -1, axis=1).reshape(-1, 2))
     return Paths(arcs, np.arange(count + 1) * sides, np.arange(count + 1))
 
 
 def segments(start: Floats, end: Floats) -> Paths:
     """Return all pieces from start to end (k, 2) as one shape of open loops."""
-    return Paths(straight(start, end), np.arange(len(start) + 1), np.array([0, len(start)]))
-
-
-def straight(start: Floats, end: Floats) -> PlaneArcs:
-    """Return straight pieces: half turns, from −u to u, of ellipses without width."""
-    half_turn = np.full(len(start), np.pi)
-    half = (end - start) / 2
-    return PlaneArcs((start + end) / 2, half, np.zeros_like(half), half_turn, half_turn)
+    return Paths(straight_pieces(start, end), np.arange(len(start) + 1), np.array([0, len(start)]))

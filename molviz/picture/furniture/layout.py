@@ -109,7 +109,7 @@ def _arranged(scale: float, drawing: Box, furniture: Furniture) -> _Arranged:
 
 def _around(box: Box, parts: Sequence[tuple[list[Piece], Box]]) -> Box:
     """The box that holds another and those of all parts."""
-    return reduce(Box.around, (found for _, found in parts), box)
+    return reduce(Box.around, (beside for _, beside in parts), box)
 
 
 def _title(text: str, middle: float, bottom: float, width: float, color: Color) -> tuple[list[Piece], Box]:

@@ -15,13 +15,13 @@ ELLIPSIS = "…"
 def _advances() -> dict[str, int]:
     """The advance of each character; a line of the table is an advance and its code points in hexadecimal."""
     table = resources.files("molviz.picture.furniture").joinpath("advances.txt").read_text(encoding="ascii")
-    found: dict[str, int] = {}
+    advances: dict[str, int] = {}
     for line in table.splitlines():
         advance, *spans = line.split()
         for span in spans:
             first, _, last = span.partition("-")
-            found.update((chr(code), int(advance)) for code in range(int(first, 16), int(last or first, 16) + 1))
-    return found
+            advances.update((chr(code), int(advance)) for code in range(int(first, 16), int(last or first, 16) + 1))
+    return advances
 
 
 def text_width(text: str, size: float) -> float:
