@@ -193,7 +193,8 @@ def _macromolecule(site: Site) -> Reading:
         residue=np.char.add(number, site.first_texts("_atom_site.pdbx_PDB_ins_code")),
         chain=site.first_texts("_atom_site.auth_asym_id", "_atom_site.label_asym_id"),
         operator_chain=site.first_texts("_atom_site.label_asym_id", "_atom_site.auth_asym_id"),
-        bfactor=bfactor, occupancy=occupancy, alternate=site.first_texts("_atom_site.label_alt_id"),
+        bfactor=bfactor, radius=np.full(len(site), np.nan), occupancy=occupancy,
+        alternate=site.first_texts("_atom_site.label_alt_id"),
         model=_order_of_first(site.first_texts("_atom_site.pdbx_PDB_model_num")), line_of=site.line_of,
     )  # fmt: skip
     models = models_of(table, _name(site), site.source)

@@ -127,7 +127,8 @@ def _table(atoms: Lines, model: Ints, source: str) -> tuple[AtomTable, list[str]
     table = AtomTable(
         position=_positions(atoms, source), element=element, atom_name=_names(atoms, 13, 16),
         residue_name=_names(atoms, 18, 21), residue=_residues(_names(atoms, 23, 27)), chain=chain,
-        operator_chain=chain, bfactor=bfactor, occupancy=occupancy, alternate=_names(atoms, 17, 17), model=model,
+        operator_chain=chain, bfactor=bfactor, radius=np.full(len(model), np.nan),
+        occupancy=occupancy, alternate=_names(atoms, 17, 17), model=model,
         line_of=lambda row: int(atoms.number[row]),
     )  # fmt: skip
     return table, [*warnings, *more, *still_more]
