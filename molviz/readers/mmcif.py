@@ -19,6 +19,7 @@ from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of_atom_name, symbol_of_label
 from molviz.model.molecule import Molecule
 from molviz.readers.atoms import AtomTable, coinciding_note, coinciding_rows, models_of
+from molviz.readers.mmcif_bonds import bonds_stated_in
 from molviz.readers.numbers import number_of, numbers
 from molviz.readers.reading import AssemblyPart, Reading
 from molviz.readers.source import note
@@ -197,7 +198,7 @@ def _macromolecule(site: Site) -> Reading:
         alternate=site.first_texts("_atom_site.label_alt_id"),
         model=_order_of_first(site.first_texts("_atom_site.pdbx_PDB_model_num")), line_of=site.line_of,
     )  # fmt: skip
-    models = models_of(table, _name(site), site.source)
+    models = models_of(table._replace(bonds=bonds_stated_in(site, table)), _name(site), site.source)
     assemblies, last = _assemblies(site)
     told = (*warnings, *more, *still_more, *models.warnings, *last)
     return Reading(site.source, "mmcif", models.molecules, assemblies, told, models.operator_chain)

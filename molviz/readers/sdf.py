@@ -119,8 +119,7 @@ def _bonds(table: Table, source: str, told: dict[str, str]) -> Bonds:
             orders.append(_ORDERS.get(bond.type, 1.0))
     if not pairs:
         return NO_BONDS
-    first, second = np.array(pairs).T
-    return Bonds.of(first, second, np.array(orders), complete=True)
+    return Bonds.of(np.array(pairs), np.array(orders), complete=True)
 
 
 # ---- V2000
