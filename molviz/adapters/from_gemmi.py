@@ -7,6 +7,7 @@ import numpy as np
 
 from molviz.adapters.plain import SOURCE
 from molviz.errors import InputError
+from molviz.model.bonds import NO_BONDS
 from molviz.model.elements import UNKNOWN, symbol_of
 from molviz.model.molecule import doubles
 from molviz.readers.atoms import AtomTable, Models, models_of
@@ -43,7 +44,8 @@ def _models(models: Iterable[Any], name: str) -> Models:
         raise InputError("no atoms; expected one at least", SOURCE)
     columns = {field: np.array(column) for field, column in zip(_Row._fields, zip(*rows, strict=True), strict=True)}
     columns["bfactor"] = doubles("bfactor", columns["bfactor"].astype(np.float32))  # gemmi keeps single precision
-    table = AtomTable(**columns, operator_chain=columns["chain"], line_of=lambda row: None)
+    columns |= {"radius": np.full(len(rows), np.nan), "operator_chain": columns["chain"]}
+    table = AtomTable(**columns, line_of=lambda row: None, bonds=NO_BONDS)
     return models_of(table, name, SOURCE)
 
 

@@ -18,6 +18,8 @@ _SYMBOL = {symbol.upper(): symbol for symbol in (*SYMBOLS, "D")} | {"T": "H"}
 _NEVER_GUESSED = frozenset(("AC", "NP", "NO", "HE", "HF", "HO", "HS"))
 # Ions whose residue and atom name is not the symbol (CHARMM and AMBER topologies).
 _ION_NAMES = {"SOD": "Na", "CLA": "Cl", "POT": "K", "CAL": "Ca", "CES": "Cs", "LIT": "Li", "RUB": "Rb"}
+# Symbols of two letters that begin no name of an atom of another element.
+_CLEAR_PAIRS = frozenset(("CL", "BR", "FE", "ZN", "MG", "MN", "CU", "SE", "SI", "LI", "AL", "NI", "PT", "AU", "AG"))
 _MARTINI_BEAD = re.compile(r"(BB|SC)\d?$")
 
 
@@ -53,6 +55,19 @@ def symbol_of_atom_name(name: str, residue_name: str) -> str:
     if residue in AMINO_ACIDS or residue in NUCLEOTIDES or residue in WATERS:
         return _symbol_in_polymer(bare)
     return _symbol_by_alignment(name.upper().ljust(4), bare)
+
+
+def symbol_of_free_name(name: str, residue_name: str) -> str:
+    """Return the element of an atom name as ``symbol_of_atom_name`` does, where no column shows how long its symbol is.
+
+    In ligands, ``CL1`` is chlorine and ``FE`` iron, but ``CA``, ``CD`` and ``HG`` are C, C and H.
+    """
+    letters = re.match(r"[A-Za-z]*", name)
+    pair = letters[0].upper() if letters else ""
+    standard = residue_name.upper() in AMINO_ACIDS | NUCLEOTIDES | WATERS
+    if pair in _CLEAR_PAIRS and not standard:
+        return symbol_of(pair)
+    return symbol_of_atom_name(name if len(name) == 4 else f" {name}", residue_name)
 
 
 def _symbol_in_polymer(bare: str) -> str:

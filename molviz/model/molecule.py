@@ -7,6 +7,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints, Strings
 from molviz.errors import InputError
+from molviz.model.bonds import NO_BONDS, Bonds
 
 _NUMBERS = {"position": (3,), "bfactor": (), "radius": ()}  # columns of numbers, and the shape of a row
 _WIDEST = 8  # bytes of a number that float64 holds
@@ -18,11 +19,12 @@ class Molecule:
 
     ``residue`` holds number and insertion code as one text (``"56A"``), ``residue_name`` the name (``"CYS"``); both
     are empty where the format has no residues. ``element`` is the symbol as usually written (``"Fe"``), ``"X"``
-    where unknown; D is kept apart from H. ``radius`` is NaN where the radii table decides, else the file's own.
-    ``water`` is not stored: see ``molviz.model.selection``. ``row`` is the atom's row in the model it was read from.
+    where unknown; D is kept apart from H. ``radius`` is the file's own, NaN where it has none; ``molviz.model.radii``
+    says when it is used. ``water`` is not stored: see ``molviz.model.selection``. ``row`` is the atom's row in the
+    model it was read from. ``stated_bonds`` are those that the file states; all bonds: ``molviz.geometry.bonds``.
 
     Lists are taken as arrays. Raises InputError, naming the column, for lengths that differ, positions that are not
-    finite and radii that are not positive.
+    finite, radii that are not positive and bonds to rows that are not there.
     """
 
     name: str
@@ -35,16 +37,19 @@ class Molecule:
     bfactor: Floats  # (n,) Å², NaN where the format has none
     radius: Floats  # (n,) ångström or NaN
     row: Ints  # (n,)
+    stated_bonds: Bonds = NO_BONDS
 
     def __post_init__(self) -> None:
-        for field in fields(self)[1:]:
-            object.__setattr__(self, field.name, _column(field.name, getattr(self, field.name)))
-        for field in fields(self)[1:]:
-            rows = len(getattr(self, field.name))
+        for name in column_names():
+            object.__setattr__(self, name, _column(name, getattr(self, name)))
+        for name in column_names():
+            rows = len(getattr(self, name))
             if rows != len(self):
-                raise InputError(f"{field.name}: {rows} rows; expected {len(self)}, one for each position")
+                raise InputError(f"{name}: {rows} rows; expected {len(self)}, one for each position")
         _refuse("position", np.isfinite(self.position).sum(axis=1) < 3, "is not finite")
         _refuse("radius", (self.radius <= 0) | np.isinf(self.radius), "is not a finite number above 0")
+        first, second = self.stated_bonds.atoms.T
+        _refuse("stated_bonds", (first < 0) | (second >= len(self)), "names an atom that is not there")
 
     def __len__(self) -> int:
         return len(self.position)
@@ -54,8 +59,8 @@ class Molecule:
 
     def take(self, rows: Ints) -> "Molecule":
         """Return the molecule of the given atoms, in that order."""
-        columns = {field.name: getattr(self, field.name)[rows] for field in fields(self) if field.name != "name"}
-        return Molecule(name=self.name, **columns)
+        columns = {name: getattr(self, name)[rows] for name in column_names()}
+        return Molecule(name=self.name, **columns, stated_bonds=self.stated_bonds.take(rows, len(self)))
 
     @staticmethod
     def of(name: str, position: Floats, element: Strings, **columns: object) -> "Molecule":
@@ -68,6 +73,11 @@ class Molecule:
             "bfactor": number, "radius": number, "row": np.arange(n),
         }  # fmt: skip
         return Molecule(name=name, position=position, element=element, **(default | columns))  # type: ignore[arg-type]
+
+
+def column_names() -> list[str]:
+    """Return the names of the columns of a molecule."""
+    return [field.name for field in fields(Molecule) if field.name not in ("name", "stated_bonds")]
 
 
 def doubles(name: str, values: object, row: tuple[int, ...] = ()) -> Floats:

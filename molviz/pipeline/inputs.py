@@ -8,8 +8,9 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats
 from molviz.errors import InputError, OptionError
+from molviz.model.elements import UNKNOWN
 from molviz.model.molecule import Molecule
-from molviz.model.radii import DEFAULT
+from molviz.model.radii import DEFAULT, OWN
 from molviz.model.selection import is_hydrogen, is_water, select
 from molviz.model.spheres import Spheres, spheres_of
 from molviz.readers import FORMATS as READERS
@@ -19,6 +20,7 @@ FAR_APART = 4000.0  # radii: wider pictures have more pixels than a screen, if e
 SHORTEST, LONGEST = 1e-60, 1e60  # ångström: fourth powers, and quotients of them, are numbers
 RESOLVED = 64  # steps of the rounding in a radius, at least, for a ball to be told from its neighbours
 FORMATS = tuple(READERS)
+WITH_CHARGES = ("pqr",)  # whose radii are a force field's, for electrostatics: used where they are asked for
 
 
 @dataclass(frozen=True)
@@ -95,10 +97,12 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
         whole = reading.assembly(wanted.assembly, number - 1)
     _refuse_unheld("a coordinate", np.abs(whole.position).max(axis=1), 0.0, reading.source)
     molecule = _named(_kept(whole, wanted, reading.source), reading.source)
+    if reading.format in WITH_CHARGES and wanted.radii != OWN:
+        molecule = replace(molecule, radius=np.where(molecule.element == UNKNOWN, molecule.radius, np.nan))
     bare, warnings = spheres_of(molecule, wanted.radii)
     _refuse_unheld("a radius", bare.radius, SHORTEST, reading.source)
     spheres = bare.enlarged(wanted.scale_radii, wanted.probe)
-    warnings += _far_apart(spheres) + _without_water(whole, molecule, wanted)
+    warnings += _far_apart(spheres) + _without_water(whole, molecule, wanted) + _without_radius(whole, wanted)
     told = tuple(f"{reading.source}: {warning}" for warning in warnings)
     count = len(reading.models)
     return Loaded(
@@ -134,6 +138,8 @@ def _kept(molecule: Molecule, wanted: InputOptions, source: str) -> Molecule:
         keep &= ~is_hydrogen(molecule)
     if wanted.chains:
         keep &= np.isin(molecule.chain, wanted.chains)
+    if wanted.radii == OWN and not np.isnan(molecule.radius).all():
+        keep &= ~np.isnan(molecule.radius)
     if not keep.any():
         chains = ", ".join(dict.fromkeys(molecule.chain.tolist()))
         raise InputError(f"no atoms are left by the selection; the chains are {chains or 'not named'}", source)
@@ -145,6 +151,11 @@ def _without_water(whole: Molecule, molecule: Molecule, wanted: InputOptions) ->
     if not left_out or np.any(is_water(molecule)):
         return ()
     return (f"{left_out} atoms of water are left out; expected --water to draw them",)
+
+
+def _without_radius(whole: Molecule, wanted: InputOptions) -> tuple[str, ...]:
+    missing = int(np.isnan(whole.radius).sum()) if wanted.radii == OWN else 0
+    return (f"{missing} atoms of radius 0 in the file are left out",) if missing else ()
 
 
 def _far_apart(spheres: Spheres) -> tuple[str, ...]:

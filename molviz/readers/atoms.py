@@ -1,4 +1,4 @@
-"""What the readers of PDB and mmCIF share: one table of all atoms becomes models without alternate locations."""
+"""What the readers of PDB, mmCIF and PQR share: one table of all atoms becomes models without alternate locations."""
 
 from collections import defaultdict
 from collections.abc import Callable
@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints, Strings
+from molviz.model.bonds import NO_BONDS, Bonds
 from molviz.model.molecule import Molecule
 from molviz.readers.source import note
 
@@ -22,16 +23,19 @@ class AtomTable(NamedTuple):
     chain: Strings  # (n,)
     operator_chain: Strings  # (n,) the chain as the file's symmetry operators call it
     bfactor: Floats  # (n,) Å² or NaN
+    radius: Floats  # (n,) ångström or NaN
     occupancy: Floats  # (n,)
     alternate: Strings  # (n,) "" where the atom has one location
     model: Ints  # (n,) increasing with the order of models
     line_of: Callable[[int], int | None]  # row → line of the file
+    bonds: Bonds = NO_BONDS  # between rows, as the file states them
 
     def take(self, rows: Ints) -> "AtomTable":
         """Return the given rows."""
         line_of = self.line_of
-        columns = {name: getattr(self, name)[rows] for name in self._fields if name != "line_of"}
-        return self._replace(**columns, line_of=lambda row: line_of(int(rows[row])))
+        columns = {name: getattr(self, name)[rows] for name in self._fields if name not in ("bonds", "line_of")}
+        bonds = self.bonds.take(rows, len(self.model))
+        return self._replace(**columns, bonds=bonds, line_of=lambda row: line_of(int(rows[row])))
 
 
 class Models(NamedTuple):
@@ -70,7 +74,7 @@ def _molecule(table: AtomTable, first: int, last: int, name: str) -> Molecule:
     return Molecule.of(
         name, table.position[part], table.element[part], atom_name=table.atom_name[part],
         residue_name=table.residue_name[part], residue=table.residue[part], chain=table.chain[part],
-        bfactor=table.bfactor[part],
+        bfactor=table.bfactor[part], radius=table.radius[part], stated_bonds=table.bonds.span(first, last),
     )  # fmt: skip
 
 

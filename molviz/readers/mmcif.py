@@ -20,6 +20,7 @@ from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of_atom_name, symbol_of_label
 from molviz.model.molecule import Molecule
 from molviz.readers.atoms import AtomTable, coinciding_note, coinciding_rows, models_of
+from molviz.readers.mmcif_bonds import bonds_stated_in
 from molviz.readers.numbers import LONGEST, SHOWN, number_of, numbers, octets_of, overlong
 from molviz.readers.reading import AssemblyPart, Reading
 from molviz.readers.source import note
@@ -199,10 +200,11 @@ def _macromolecule(site: Site) -> Reading:
         residue=np.char.add(number, site.first_texts("_atom_site.pdbx_PDB_ins_code")),
         chain=site.first_texts("_atom_site.auth_asym_id", "_atom_site.label_asym_id"),
         operator_chain=site.first_texts("_atom_site.label_asym_id", "_atom_site.auth_asym_id"),
-        bfactor=bfactor, occupancy=occupancy, alternate=site.first_texts("_atom_site.label_alt_id"),
+        bfactor=bfactor, radius=np.full(len(site), np.nan), occupancy=occupancy,
+        alternate=site.first_texts("_atom_site.label_alt_id"),
         model=_order_of_first(site.first_texts("_atom_site.pdbx_PDB_model_num")), line_of=site.line_of,
     )  # fmt: skip
-    models = models_of(table, _name(site), site.source)
+    models = models_of(table._replace(bonds=bonds_stated_in(site, table)), _name(site), site.source)
     assemblies, last = _assemblies(site)
     told = (*warnings, *more, *still_more, *models.warnings, *last)
     return Reading(site.source, "mmcif", models.molecules, assemblies, told, models.operator_chain)

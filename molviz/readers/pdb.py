@@ -3,6 +3,7 @@
 wwPDB, "Protein Data Bank Contents Guide: Atomic Coordinate Entry Format Description", version 3.3.
 """
 
+import itertools
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import PurePath
@@ -12,6 +13,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Fields, Floats, Ints, Octets, Strings
 from molviz.errors import InputError
+from molviz.model.bonds import NO_BONDS, Bonds
 from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_atom_name
 from molviz.readers.atoms import AtomTable, models_of
 from molviz.readers.numbers import number_of, numbers
@@ -20,6 +22,8 @@ from molviz.readers.source import note
 
 WIDTH = 80
 _COORDINATES = {"x": (31, 38), "y": (39, 46), "z": (47, 54)}
+_PARTNERS = (12, 17, 22, 27)  # first columns of the serial numbers that CONECT joins to that in column 7
+_TRIPLE = 3
 _HYBRID_36 = re.compile(r"([A-Z][0-9A-Z]{3}|[a-z][0-9a-z]{3})(?![0-9])(.?)$")
 
 
@@ -55,9 +59,10 @@ def read_pdb(data: bytes, source: str) -> Reading:
     _check_columns(atoms, source)
     model, warnings = _models(record, lines, is_atom, source)
     table, more = _table(atoms, model, source)
-    models = models_of(table, _title(record, lines, source), source)
+    bonds, still_more = _connections(lines.take(record == b"CONECT"), _serials(atoms, 7), model, source)
+    models = models_of(table._replace(bonds=bonds), _title(record, lines, source), source)
     assemblies = _assemblies(lines.take(np.char.startswith(lines.field(1, 10), b"REMARK 350")), source)
-    told = (*warnings, *more, *models.warnings, *_connections(record, lines, source))
+    told = (*warnings, *more, *models.warnings, *still_more)
     return Reading(source, "pdb", models.molecules, assemblies, told, models.operator_chain)
 
 
@@ -129,7 +134,8 @@ def _table(atoms: Lines, model: Ints, source: str) -> tuple[AtomTable, list[str]
     table = AtomTable(
         position=_positions(atoms, source), element=element, atom_name=_names(atoms, 13, 16),
         residue_name=_names(atoms, 18, 21), residue=_residues(_names(atoms, 23, 27)), chain=chain,
-        operator_chain=chain, bfactor=bfactor, occupancy=occupancy, alternate=_names(atoms, 17, 17), model=model,
+        operator_chain=chain, bfactor=bfactor, radius=np.full(len(model), np.nan),
+        occupancy=occupancy, alternate=_names(atoms, 17, 17), model=model,
         line_of=lambda row: int(atoms.number[row]),
     )  # fmt: skip
     return table, [*warnings, *more, *still_more]
@@ -234,13 +240,45 @@ def _title(record: Fields, lines: Lines, source: str) -> str:
     return title or entry or PurePath(source.removesuffix(".gz")).stem
 
 
-def _connections(record: Fields, lines: Lines, source: str) -> list[str]:
-    """Return a warning where serial numbers of CONECT leave their five columns; bonds are not read from there."""
-    for line, text in lines.take(record == b"CONECT").texts():
+def _serials(lines: Lines, first: int) -> Fields:
+    """Return the serial numbers (n,) in the five columns from the given one, as texts without blanks."""
+    return np.char.strip(lines.field(first, first + 4))
+
+
+def _connections(records: Lines, serial: Fields, model: Ints, source: str) -> tuple[Bonds, list[str]]:
+    """Return the bonds of CONECT between the rows of all models, and a warning where serial numbers run together.
+
+    An atom that stands k times in one record has a bond of order k, as programs write it. Serial numbers that no atom
+    or several atoms of a model have make no bond.
+    """
+    clear = np.ones(len(records.number), dtype=bool)
+    warnings = []
+    for row, (line, text) in enumerate(records.texts()):
         serials = text[6:31].rstrip()
         if len(serials) % 5 and re.search(r"\S{6,}", serials):
-            return [note("CONECT with serial numbers run together is ignored", source, line)]
-    return []
+            clear[row] = False
+            warnings.append(note("CONECT with serial numbers run together is ignored", source, line))
+    return _bonds(records.take(clear), serial, model), warnings[:1]
+
+
+def _bonds(records: Lines, serial: Fields, model: Ints) -> Bonds:
+    if not len(records.number):
+        return NO_BONDS
+    first, partner = _serials(records, 7), np.column_stack([_serials(records, start) for start in _PARTNERS])
+    order = np.minimum((partner[:, :, None] == partner[:, None, :]).sum(axis=2), _TRIPLE).ravel()
+    texts, code = np.unique(np.concatenate([serial, first, partner.ravel()]), return_inverse=True)
+    code, one, other = np.split(code, np.cumsum([len(serial), len(first)]))
+    one = np.repeat(one, len(_PARTNERS))
+    pairs = []
+    for begin, end in itertools.pairwise([*np.searchsorted(model, np.arange(model[-1] + 1)).tolist(), len(model)]):
+        row_of = np.full(len(texts), -1)
+        row_of[code[begin:end]] = np.arange(begin, end)
+        row_of[(np.bincount(code[begin:end], minlength=len(texts)) > 1) | (texts == b"")] = -1
+        pairs.append(np.column_stack([row_of[one], row_of[other]]))
+    atoms, order = np.concatenate(pairs), np.tile(order, len(pairs)).astype(float)
+    rows = np.flatnonzero((atoms >= 0).all(axis=1))
+    rows = rows[np.argsort(-order[rows], kind="stable")]  # of two records, the one that says more
+    return Bonds.of(atoms[rows], order[rows])
 
 
 def _assemblies(remarks: Lines, source: str) -> Mapping[str, tuple[AssemblyPart, ...]]:

@@ -2,14 +2,15 @@
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from molviz.arrays import Floats, Ints, Strings
 from molviz.errors import InputError
-from molviz.model.molecule import Molecule
+from molviz.model.bonds import joined
+from molviz.model.molecule import Molecule, column_names
 
 
 class AssemblyPart(NamedTuple):
@@ -77,6 +78,6 @@ def _copies(molecule: Molecule, rows: Ints, part: AssemblyPart, made: int) -> li
 
 
 def _joined(molecules: list[Molecule]) -> Molecule:
-    columns = [column.name for column in fields(Molecule) if column.name != "name"]
-    joined = {name: np.concatenate([getattr(molecule, name) for molecule in molecules]) for name in columns}
-    return Molecule(name=molecules[0].name, **joined)
+    columns = {name: np.concatenate([getattr(molecule, name) for molecule in molecules]) for name in column_names()}
+    bonds = joined([molecule.stated_bonds for molecule in molecules], [len(molecule) for molecule in molecules])
+    return Molecule(name=molecules[0].name, **columns, stated_bonds=bonds)

@@ -24,6 +24,7 @@ TABLES = {
     "chothia": "united atoms of proteins, Chothia 1976; all else as bondi",
 }
 DEFAULT = "bondi"
+OWN = "file"  # no table, but the radii that the file itself has
 GUESS = 2.0  # ångström, where the table has nothing: about the mean of the metals of Bondi's table and of Mantina's
 
 
@@ -49,7 +50,7 @@ def load_table(name: str) -> RadiiTable:
         return _table(_toml(Path(__file__).with_name(f"{name}.toml")), TABLES[name], name)
     path = Path(name)
     if not os.path.isfile(name):  # noqa: PTH113 (Path.is_file raises for names too long)
-        expected = expected_instead(name, TABLES, f"one of {', '.join(TABLES)}, or a file")
+        expected = expected_instead(name, (*TABLES, OWN), f"one of {', '.join(TABLES)}, {OWN} or a table's path")
         raise OptionError(f"no radii table {name!r}; {expected}")
     return _table(_toml(path) if path.suffix == ".toml" else _two_columns(path), path.name, name)
 
@@ -57,9 +58,12 @@ def load_table(name: str) -> RadiiTable:
 def radii(molecule: Molecule, table: str = DEFAULT) -> tuple[Floats, tuple[str, ...]]:
     """Return the radius (n,) of every atom in ångström, and warnings, one of a kind.
 
-    The file's own radius goes first, then the table's for residue and atom name, then its for the element (D being
-    H), and ``GUESS``, with a warning, where there is none.
+    The molecule's own radius goes first, then the table's for residue and atom name, then its for the element (D being
+    H), and ``GUESS``, with a warning, where there is none. The name ``file`` is no table but the molecule's own radii;
+    raises InputError where an atom has none.
     """
+    if table == OWN:
+        return _own(molecule), ()
     loaded = load_table(table)
     element = np.where(molecule.element == "D", "H", molecule.element)
     tabulated = _by_element(element, loaded.elements)
@@ -73,6 +77,14 @@ def radii(molecule: Molecule, table: str = DEFAULT) -> tuple[Floats, tuple[str, 
     if loaded.implicit_hydrogens and (needed & (element == "H")).any():
         warnings.append(f"table {table} counts hydrogens within the heavy atoms, yet the molecule has its own as well")
     return radius, tuple(warnings)
+
+
+def _own(molecule: Molecule) -> Floats:
+    missing = np.flatnonzero(np.isnan(molecule.radius))
+    if len(missing):
+        what = f"{len(missing)} of {len(molecule)} atoms have no radius of their own in {molecule.name!r}"
+        raise InputError(f"radii {OWN!r}: {what}; expected PQR or xyzr with one for each, or {', '.join(TABLES)}")
+    return molecule.radius
 
 
 def _guess_notes(element: Strings, table: str) -> list[str]:
