@@ -251,7 +251,7 @@ def test_numbers_without_a_picture_are_usage_errors(words: list[str], tmp_path: 
 def test_an_eye_among_the_atoms_is_told_in_one_line(tmp_path: Path) -> None:
     result = run("draw", CAFFEINE, "-o", str(tmp_path / "x.svg"), "--perspective", "2")
     assert result.exit_code == 1
-    assert result.stderr.startswith("molviz: ") and "expected a distance above 2.24" in result.stderr
+    assert result.stderr.startswith("molviz: ") and "perspective: " in result.stderr and "2.24 Å" in result.stderr
 
 
 @pytest.mark.parametrize("text", ["[lines]\ncolor = 3\n", "lines = 3\n", "[colors]\nelement = 3\n", "x = [\n"])

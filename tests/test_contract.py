@@ -29,7 +29,7 @@ def molviz(*words: str | bytes) -> subprocess.CompletedProcess[bytes]:
     [(["--select", "watr"], "did you mean 'water'?"), (["--select", "chain"], "expected a value"),
      (["--style", "godsell"], "did you mean 'goodsell'?"), (["--style", "no.toml"], "or a TOML file"),
      (["--palette", "tied"], "did you mean 'tide'?"), (["--palette", "zzz"], "or a TOML file"),
-     (["--radii", "bondy"], "did you mean 'bondi'?"), (["--radii", "zzz"], "or a file"),
+     (["--radii", "bondy"], "did you mean 'bondi'?"), (["--radii", "zzz"], "or a table's path"),
      (["--model", "x"], "expected a number from 1"), (["--model", "2"], "the file has 1, numbered from 1"),
      (["--color", "elment C=red"], "did you mean 'element'?"), (["--label", "elment C"], "did you mean 'element'?")],
 )  # fmt: skip

@@ -25,13 +25,15 @@ def face_areas(view_map: VisibilityMap) -> Floats:
 def point_on(view_map: VisibilityMap, sphere: int) -> Floats:
     """Return a point (2,) of the page, ångström, at which a sphere with a face is seen, not close to where it ends.
 
-    It is the middle of the longest of some level chords.
+    It is the middle of the longest of some level chords, or, where rounding leaves none, a point of the border.
     """
     chains = closed_chains(view_map.loops, np.flatnonzero(view_map.loops.face == sphere))
     paths = shapes_of(view_map.arcs, view_map.curve_arcs.curve, chains)
     arcs = paths.arcs
     height = np.concatenate([arcs.at(arcs.start + share * arcs.sweep)[:, 1] for share in (0.0, 0.25, 0.5, 0.75)])
     chords = hatched(paths, float(np.ptp(height)) / CHORDS, 0.0).arcs
+    if not len(chords.c):
+        return np.asarray(arcs.at(arcs.middle())[0])
     return np.asarray(chords.c[np.argmax(np.abs(chords.u[:, 0]))])
 
 

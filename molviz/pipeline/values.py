@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from molviz.errors import OptionError
-from molviz.model.radii import load_table
+from molviz.model.radii import OWN, load_table
 from molviz.model.selection import check_selection
 from molviz.picture.coloring import CONTINUOUS, DISCRETE
 from molviz.picture.colors import parse_color
@@ -182,7 +182,8 @@ def parse_model(value: Any) -> str:
 
 def input_options_from(options: Options) -> InputOptions:
     """Return which part of the input is wanted; raises OptionError for what is wrong whatever the input holds."""
-    load_table(str(options["radii"]))
+    if options["radii"] != OWN:
+        load_table(str(options["radii"]))
     return InputOptions(
         model=given(options, "model", parse_model),
         assembly=given(options, "assembly", parse_text),

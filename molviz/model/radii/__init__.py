@@ -11,7 +11,7 @@ import numpy as np
 
 from molviz import toml
 from molviz.arrays import Floats, Strings
-from molviz.errors import OptionError, expected_instead
+from molviz.errors import InputError, OptionError, expected_instead
 from molviz.model.elements import symbol_of
 from molviz.model.molecule import Molecule
 
