@@ -171,3 +171,14 @@ def test_missing_symmetry_is_told() -> None:
 def test_sites_without_labels_are_refused() -> None:
     with pytest.raises(InputError, match="expected _atom_site_label"):
         read("t.cif", SMALL.replace("_atom_site_label", "_atom_site_name").encode())
+
+
+@pytest.mark.parametrize("tag", ["Cartn_z", "type_symbol", "occupancy", "auth_seq_id", "pdbx_PDB_ins_code"])
+@pytest.mark.parametrize("count", [1, 3])
+def test_columns_of_unequal_length_are_refused(tag: str, count: int) -> None:
+    tags = [name for name in ("type_symbol", "Cartn_x", "Cartn_y", "Cartn_z") if name != tag]
+    rows = "".join(" ".join("C" if name == "type_symbol" else f"{k}.0" for name in tags) + "\n" for k in range(2))
+    table = "data_x\nloop_\n" + "".join(f"_atom_site.{name}\n" for name in tags) + rows
+    other = f"loop_\n_atom_site.{tag}\n" + "1\n" * count
+    with pytest.raises(InputError, match="values for . rows; expected as many"):
+        read("x.cif", (table + other).encode())

@@ -14,7 +14,7 @@ from molviz.errors import InputError
 from molviz.model.elements import UNKNOWN, symbol_of_free_name
 from molviz.model.molecule import Molecule
 from molviz.readers.atoms import coinciding_note, coinciding_rows
-from molviz.readers.numbers import numbers
+from molviz.readers.numbers import numbers, octets_of
 from molviz.readers.reading import Reading
 from molviz.readers.source import note
 
@@ -69,7 +69,7 @@ def _check_box(line: bytes, source: str, number: int) -> None:
     def error(_: int, text: str) -> InputError:
         return InputError(f"{text!r} where the box stands by the count; expected lengths in nm", source, number)
 
-    numbers(np.array(words), error)
+    numbers(octets_of(words), error)
 
 
 def _molecule(frame: Frame, source: str, told: dict[str, str]) -> Molecule:

@@ -108,10 +108,23 @@ class Site:
 
     def __init__(self, block: cif.Block, lines: list[str], source: str) -> None:
         self.block, self.lines, self.source = block, lines, source
+        self.rows: dict[str, int] = {}  # of other categories, by their names
+
+    def _values(self, tag: str) -> list[str]:
+        """Return a column as it is written, empty where it is missing; raises InputError unless all rows have one."""
+        values = list(self.block.find_values(tag))
+        if not values:
+            return values
+        category = tag.partition(".")[0]
+        rows = len(self) if category == "_atom_site" else self.rows.setdefault(category, len(values))
+        if len(values) != rows:
+            message = f"{tag} has {len(values)} values for {rows} rows; expected as many"
+            raise InputError(message, self.source)
+        return values
 
     def texts(self, tag: str) -> Strings | None:
         """Return a column (n,), ``""`` for ``.`` and ``?`` and quotes removed; None where it is missing."""
-        values = list(self.block.find_values(tag))
+        values = self._values(tag)
         if not values:
             return None
         wrong = overlong(values)
@@ -136,7 +149,7 @@ class Site:
         return np.column_stack([self._coordinate(tag) for tag in tags])
 
     def _coordinate(self, tag: str) -> Floats:
-        values = list(self.block.find_values(tag))
+        values = self._values(tag)
         if not values:
             raise InputError(f"{tag} is missing; expected all of {', '.join(_AXES)}", self.source, self.line_of(0))
 
@@ -147,7 +160,7 @@ class Site:
 
     def optional(self, tag: str, default: float) -> tuple[Floats, list[str]]:
         """Return a column of numbers, the default for ``.`` and ``?``, and a warning where one is something else."""
-        values = list(self.block.find_values(tag)) or ["."] * len(self)
+        values = self._values(tag) or ["."] * len(self)
         octets = {value: _UNCERTAINTY.sub(b"", value.encode()) for value in set(values)}
         known = {value: number_of(octet) for value, octet in octets.items()}
         wrong = {value for value, number in known.items() if value not in (".", "?") and number is None}

@@ -9,6 +9,7 @@ from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.view import View
 
 SLIVER = 0.004  # ångström: thinner faces are not drawn; displaced copies of one outline lie ten times closer
+SMALL = 0.1  # ångström: the radius of balls that are smaller than any atom, whose slivers are thinner in proportion
 CREASE, OUTLINE, SILHOUETTE, UNDRAWN = range(4)
 ROLES = ("crease", "outline", "silhouette")  # the names of those that are drawn
 
@@ -30,8 +31,8 @@ def is_silhouette(view_map: VisibilityMap) -> Bools:
 
 
 def slivers(view_map: VisibilityMap) -> Bools:
-    """Return which loops enclose less than ``SLIVER`` times their half length; less by so much as balls are smaller."""
-    thinnest = SLIVER * min(1.0, float(view_map.spheres.radius.max(initial=0.0)))
+    """Return which loops enclose less than ``SLIVER`` times their half length; less in scenes below ``SMALL``."""
+    thinnest = SLIVER * min(1.0, float(view_map.spheres.radius.max(initial=0.0)) / SMALL)
     row = view_map.loops.half_edge >> 1
     arcs = view_map.arcs.take(row)
     length = np.abs(arcs.sweep) * np.sqrt((arcs.u**2 + arcs.v**2).sum(axis=1) / 2)
