@@ -69,7 +69,7 @@ def _check_box(line: bytes, source: str, number: int) -> None:
     def error(_: int, text: str) -> InputError:
         return InputError(f"{text!r} where the box stands by the count; expected lengths in nm", source, number)
 
-    numbers(octets_of(words), error)
+    numbers(octets_of(words, error), error)
 
 
 def _molecule(frame: Frame, source: str, told: dict[str, str]) -> Molecule:
