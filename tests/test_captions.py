@@ -181,7 +181,7 @@ def test_legends_are_in_all_formats() -> None:
 
 
 def test_water_is_left_out_and_that_is_said() -> None:
-    with pytest.warns(UserWarning, match="88 atoms of water are left out; expected --water"):
+    with pytest.warns(UserWarning, match="88 atoms of water are left out; --water"):
         without = molviz.draw(SAMPLES / "1a8o.pdb")
     water = molviz.draw(SAMPLES / "1a8o.pdb", water=True)
     assert water.atoms_drawn - without.atoms_drawn == 88

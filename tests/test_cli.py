@@ -291,7 +291,7 @@ def test_atoms_smaller_than_a_pixel_are_told(tmp_path: Path) -> None:
     far.write_text("2\n\nC -1e8 0 0\nC 1e8 0 0\n", encoding="utf-8")
     result = run("draw", str(far), "-o", str(tmp_path / "x.svg"))
     assert result.exit_code == 0
-    assert f"molviz: {far}: the atoms extend over 2e+08 Å" in result.stderr
+    assert f"molviz: warning: {far}: the atoms extend over 2e+08 Å" in result.stderr
     assert "extend" not in run("draw", PROTEIN, "-o", str(tmp_path / "y.svg")).stderr
 
 

@@ -124,7 +124,7 @@ def warn(warnings: Iterable[str], quiet: bool, strict: bool) -> None:
         if strict:
             raise InputError(warning)
         if not quiet:
-            say(f"molviz: {warning}")
+            say(f"molviz: warning: {warning}")
 
 
 def _standard_input() -> bytes:

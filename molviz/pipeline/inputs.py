@@ -150,7 +150,7 @@ def _without_water(whole: Molecule, molecule: Molecule, wanted: InputOptions) ->
     left_out = int(np.sum(is_water(whole))) if wanted.water is None else 0
     if not left_out or np.any(is_water(molecule)):
         return ()
-    return (f"{left_out} atoms of water are left out; expected --water to draw them",)
+    return (f"{left_out} atoms of water are left out; --water (water=True) draws them",)
 
 
 def _without_radius(whole: Molecule, wanted: InputOptions) -> tuple[str, ...]:
