@@ -281,7 +281,7 @@ class MapComposer:
             return []
         runs, looks = self.runs, self.looks
         widths = line_widths(runs, looks.group, looks.far, style, self.scale)
-        strokes = strokes_of(runs, widths)
+        strokes, paths = outlined(runs, widths, strokes_of(runs, widths))
         if not len(strokes.run):
             return []
         sphere = runs.sphere[strokes.run]
@@ -289,7 +289,7 @@ class MapComposer:
         share = INK_FOG * self.style.fog.strength * (far_class + 0.5) / INK_CLASSES
         dark = np.where(strokes.dark[:, None], self.dark_ink, looks.ink[sphere])
         color = mix(dark, self.haze, share)
-        paths, distinct = in_colors(outlined(runs, widths, strokes), np.column_stack([-far_class, color]))
+        paths, distinct = in_colors(paths, np.column_stack([-far_class, color]))
         paths = paths._replace(arcs=paths.arcs.moved(self.placement.scale, self.placement.shift))
         return [FillLayer("ink", paths, colors_of(distinct[:, 1:]), [region_mark("", "ink")] * len(distinct))]
 

@@ -148,6 +148,11 @@ class Strokes(NamedTuple):
     at_end: Bools  # (k,)
     whole: Bools  # (k,) a closed run altogether
 
+    def take(self, rows: Ints) -> "Strokes":
+        """Return the given rows, in that order."""
+        ends = self.at_start[rows], self.at_end[rows]
+        return Strokes(self.run[rows], self.first[rows], self.last[rows], self.dark[rows], *ends, self.whole[rows])
+
 
 def strokes_of(runs: HorizonRuns, widths: Widths) -> Strokes:
     """Return the stretches of positive width and one ink; they end in a point where the width vanishes."""
@@ -169,8 +174,11 @@ def strokes_of(runs: HorizonRuns, widths: Widths) -> Strokes:
     return Strokes(run, low, high, widths.dark[first], at_start & ~closed, at_end & ~closed, whole)
 
 
-def outlined(runs: HorizonRuns, widths: Widths, strokes: Strokes) -> Paths:
-    """Return one shape of one loop per stroke, the ink inside: arcs through three points of either side each."""
+def outlined(runs: HorizonRuns, widths: Widths, strokes: Strokes) -> tuple[Strokes, Paths]:
+    """Return one shape of one loop per stroke, the ink inside: arcs through three points of either side each.
+
+    Strokes of which the cuts at their two ends leave nothing are left out.
+    """
     pieces = np.maximum(np.ceil((strokes.last - strokes.first) / ARC).astype(np.int64), 1)
     owner, place = expand(np.zeros_like(pieces), 2 * pieces + 1)
     share = place / (2 * pieces[owner])
@@ -183,7 +191,20 @@ def outlined(runs: HorizonRuns, widths: Widths, strokes: Strokes) -> Paths:
         _mitred(runs, strokes, owner, place, pieces, t, offset)
         for offset in (OUTSIDE * width, (OUTSIDE - 1.0) * width)
     ]
-    return _loops(strokes, runs, pieces, owner, place, sides[0], sides[1])
+    return _with_ink(strokes, _loops(strokes, runs, pieces, owner, place, sides[0], sides[1]))
+
+
+def _with_ink(strokes: Strokes, paths: Paths) -> tuple[Strokes, Paths]:
+    """The strokes and shapes with ink inside: where a cut reaches across the other end, a shape is inside out."""
+    area = np.add.reduceat(paths.arcs.signed_area(), paths.loop_start[:-1])[paths.shape_start[:-1]]
+    kept = np.flatnonzero(area > 0)
+    return strokes.take(kept), _shapes_taken(paths, kept)
+
+
+def _shapes_taken(paths: Paths, shapes: Ints) -> Paths:
+    loop, shape_start = lists_taken(paths.shape_start, shapes)
+    arc, loop_start = lists_taken(paths.loop_start, loop)
+    return Paths(paths.arcs.take(arc), loop_start, shape_start)
 
 
 def _interpolated(values: Floats, begin: Ints, sample: Floats, end: Ints) -> Floats:
@@ -307,8 +328,6 @@ def arcs_through(start: Floats, middle: Floats, end: Floats) -> PlaneArcs:
 def in_colors(paths: Paths, color: Ints) -> tuple[Paths, Ints]:
     """Return shapes of equal rows of ``color`` (k, c) as one shape each, and the distinct rows, ascending."""
     distinct, number = np.unique(color, axis=0, return_inverse=True)
-    shapes = np.argsort(number.ravel(), kind="stable")
-    loop, start = lists_taken(paths.shape_start, shapes)
-    arc, loop_start = lists_taken(paths.loop_start, loop)
-    count = np.bincount(number.ravel(), np.diff(start), len(distinct)).astype(np.int64)
-    return Paths(paths.arcs.take(arc), loop_start, np.concatenate([[0], np.cumsum(count)])), distinct
+    taken = _shapes_taken(paths, np.argsort(number.ravel(), kind="stable"))
+    last = np.cumsum(np.bincount(number.ravel(), minlength=len(distinct)))
+    return taken._replace(shape_start=taken.shape_start[np.append(0, last)]), distinct
