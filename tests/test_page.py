@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from molviz.curves import PlaneArcs
@@ -439,6 +439,7 @@ def same_circle(loop: PlaneArcs) -> np.ndarray:
 
 @pytest.mark.parametrize("method", ["visible", "painter"])
 @given(st.integers(0, 10**6), st.integers(2, 25), st.sampled_from([None, 25.0]))
+@example(422, 13, 25.0)  # a crease ends in a cusp: the arc beside it is 1e-9 points long, and no whole circle
 @settings(max_examples=15)
 def test_pens_run_on_and_never_begin_in_the_middle_of_an_arc(
     method: str, seed: int, count: int, distance: float | None
@@ -451,7 +452,7 @@ def test_pens_run_on_and_never_begin_in_the_middle_of_an_arc(
             for loop in (loop for shape in shapes(layer) for loop in shape.loops):
                 end, start = joints(loop)
                 gap = np.linalg.norm(end - start, axis=1)
-                closed = gap[-1] < 1e-6
+                closed = gap[-1] < 1e-6 < (np.abs(loop.sweep) * loop.major()).sum()
                 assert (gap[:-1] < 1e-6).all() and (closed or isinstance(layer, StrokeLayer))
                 assert not same_circle(loop)[: len(gap) if closed and len(gap) > 1 else -1].any()
                 assert len(gap) > 1 or not closed or abs(loop.sweep[0]) == 2 * math.pi
