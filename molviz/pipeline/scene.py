@@ -1,5 +1,6 @@
 """A scene for Python users: anything made of spheres, prepared once for any number of views."""
 
+import os
 from collections.abc import Sequence
 from typing import Any
 
@@ -30,7 +31,7 @@ class Scene:
         no_water: bool = False,
         no_hydrogens: bool = False,
         chain: str | Sequence[str] | None = None,
-        radii: str = "bondi",
+        radii: str | os.PathLike[str] = "bondi",
         scale_radii: float = 1.0,
         probe: float = 0.0,
     ) -> None:
