@@ -187,6 +187,7 @@ def test_between_groups_a_line_is_never_thinner_than_half() -> None:
 @example(642, 11, None, 1)
 @example(50683, 32, None, 2)
 @example(798097, 37, None, 2)
+@example(483, 13, 40.0, 3)
 @settings(max_examples=25)
 def test_shapes_are_closed_and_their_ink_is_inside(seed: int, count: int, distance: float | None, groups: int) -> None:
     scene = random_spheres(seed, count, 7.0)

@@ -29,6 +29,7 @@ LONGEST_TIP = 4.0  # of its distance from the horizon, by which a side may be pr
 SPUR = 1.1  # ångström: shorter lines are dropped unless both ends are wide
 SPUR_SHARE = 0.4  # of the widest inner line
 FARTHER_THINNER = 0.3  # by which lines of the farthest spheres are thinner
+NOTHING = 1e-9  # square ångström: a stroke of less ink is none
 MITRE_STEPS = 6  # of Newton's method, from a guess within a width of the end
 
 
@@ -197,7 +198,7 @@ def outlined(runs: HorizonRuns, widths: Widths, strokes: Strokes) -> tuple[Strok
 def _with_ink(strokes: Strokes, paths: Paths) -> tuple[Strokes, Paths]:
     """The strokes and shapes with ink inside: where a cut reaches across the other end, a shape is inside out."""
     area = np.add.reduceat(paths.arcs.signed_area(), paths.loop_start[:-1])[paths.shape_start[:-1]]
-    kept = np.flatnonzero(area > 0)
+    kept = np.flatnonzero(area > NOTHING)
     return strokes.take(kept), _shapes_taken(paths, kept)
 
 
