@@ -5,16 +5,19 @@ import numpy as np
 from molviz.geometry.boundary import union_boundary
 from molviz.geometry.general_position import general_position
 from molviz.model.spheres import Spheres
-from molviz.visibility.eye import eye_coordinates, occluders_of, projection_of
+from molviz.model.sticks import NO_STICKS, Sticks
+from molviz.visibility.eye import eye_coordinates, occluders_of, projection_of, sticks_in_view
 from molviz.visibility.map import VisibilityMap, map_in_view
 from molviz.visibility.painter import Pieces, painter_pieces
+from molviz.visibility.solids import Solids
 from molviz.visibility.view import View
 
 
-def map_of(spheres: Spheres, view: View) -> VisibilityMap:
-    """The map of all spheres, which are taken to be in general position."""
-    seen = occluders_of(eye_coordinates(spheres, view), view)
-    return map_in_view(union_boundary(spheres), seen, np.arange(len(spheres.radius)), view, projection_of(view))
+def map_of(spheres: Spheres, view: View, sticks: Sticks = NO_STICKS) -> VisibilityMap:
+    """The map of all spheres and sticks, which are taken to be in general position."""
+    seen = eye_coordinates(spheres, view)
+    solids = Solids(occluders_of(seen, view), sticks_in_view(seen, sticks, view))
+    return map_in_view(union_boundary(spheres), solids, np.arange(len(spheres.radius)), view, projection_of(view))
 
 
 def pieces_of(spheres: Spheres, view: View) -> Pieces:

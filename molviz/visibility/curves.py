@@ -1,7 +1,8 @@
 """The curves that are seen: each knows its kind and the two solids that it lies between.
 
-A *horizon* is the curve on which a solid turns away from the eye, the field's *contour generator*; its image is the
-occluding contour.
+A *horizon* is the curve on which a ball turns away from the eye, and a *line* one of the two of a stick: the field's
+*contour generators*, whose images are the occluding contours. Two solids meet in a *crease*; in a *seam*, which is no
+line of a drawing, where a stick goes over into its joint or into another stick. A *border* halves a stick.
 """
 
 from typing import NamedTuple
@@ -11,8 +12,9 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.circles import Circles
 
-CREASE, HORIZON = range(2)
-KINDS = ("crease", "horizon")  # their names
+CREASE, HORIZON, LINE, SEAM, BORDER = range(5)
+KINDS = ("crease", "horizon", "line", "seam", "border")  # their names
+CONTOURS = (HORIZON, LINE)
 
 
 class Curves(NamedTuple):
@@ -20,7 +22,7 @@ class Curves(NamedTuple):
 
     ``a × b`` of a crease points from the centre of ``first`` towards that of ``second``. A horizon has its own solid on
     both sides, ``first`` = ``second``, the half that faces the eye and the half that does not, and a × b points
-    towards the eye.
+    towards the eye. A line has b = 0 and runs between the two halves of its stick.
     """
 
     kind: Ints  # (m,)
@@ -33,6 +35,10 @@ class Curves(NamedTuple):
     def is_crease(self) -> Bools:
         """Return which curves (m,) are creases."""
         return np.asarray(self.kind == CREASE)
+
+    def is_contour(self) -> Bools:
+        """Return which curves (m,) are contour generators: horizons and lines."""
+        return np.isin(self.kind, CONTOURS)
 
     def of_kind(self, kind: int) -> "Curves":
         """Return the curves of one kind, in their order."""

@@ -5,7 +5,9 @@ import numpy as np
 from molviz.arrays import Floats
 from molviz.errors import InputError
 from molviz.model.spheres import Spheres
+from molviz.model.sticks import Sticks
 from molviz.visibility.occluders.sphere import CentralSpheres, ParallelSpheres, SphereOccluders
+from molviz.visibility.occluders.stick import StickOccluders, stick_occluders
 from molviz.visibility.projection import Central, Parallel, Projection
 from molviz.visibility.view import View
 
@@ -34,6 +36,12 @@ def eye_coordinates(spheres: Spheres, view: View) -> Spheres:
 def occluders_of(spheres: Spheres, view: View) -> SphereOccluders:
     """Return spheres in eye coordinates as what hides."""
     return ParallelSpheres(spheres) if view.distance is None else CentralSpheres(spheres, view.distance)
+
+
+def sticks_in_view(spheres: Spheres, sticks: Sticks, view: View) -> StickOccluders:
+    """Return sticks as what hides; the spheres (n, 3) they join are in eye coordinates, the offsets in space."""
+    turned = sticks._replace(offset=sticks.offset @ view.rotation.T)
+    return stick_occluders(spheres, turned, view.distance is not None)
 
 
 def refuse_eye_among(spheres: Spheres, view: View) -> None:

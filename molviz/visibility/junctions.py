@@ -1,4 +1,4 @@
-"""T-junctions: horizons are split where other visible curves pass under them."""
+"""T-junctions: contours are split where other visible curves pass under them, and where their colours change."""
 
 from typing import NamedTuple
 
@@ -8,9 +8,10 @@ from molviz.arrays import Floats, Ints
 from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
 from molviz.geometry.rows import expand
-from molviz.visibility.curves import Curves
-from molviz.visibility.named_arcs import ENTRY, TEE, WHOLE, NamedArcs, vertex_numbers
-from molviz.visibility.occluders.sphere import SphereOccluders
+from molviz.visibility.curves import HORIZON, Curves
+from molviz.visibility.named_arcs import NamedArcs, vertex_numbers
+from molviz.visibility.names import EDGE, ELBOW, ENTRY, HALF, TEE, WHOLE
+from molviz.visibility.solids import Solids
 
 SNAP = 1e-9  # radians by which rounding may put a junction outside the arc it lies on
 
@@ -37,41 +38,53 @@ class _Junctions(NamedTuple):
     vertex: Ints
 
 
-def split_at_junctions(
-    named: NamedArcs, curves: Curves, horizons: Curves, spheres: SphereOccluders
-) -> tuple[CurveArcs, Ints]:
-    """Return the arcs as those of the map, and for each vertex the ball that a horizon enters there, −1 if none.
+def split_at_junctions(named: NamedArcs, curves: Curves, solids: Solids, central: bool) -> tuple[CurveArcs, Ints]:
+    """Return the arcs as those of the map, and for each vertex the solid that a contour enters there, −1 if none.
 
-    ``horizons`` are the last of the ``curves``. Raises ``Degenerate`` where a junction lies on no visible horizon.
+    Horizons and lines are numbered together as contours, in the order of the ``curves``. Raises ``Degenerate`` where a
+    junction lies on no visible contour.
     """
     origin, target = vertex_numbers(named.origin, named.target)
     tees = [
-        _junctions(named, curves, horizons, spheres, name, vertex, fraction)
+        _junctions(named, curves, solids, central, name, vertex, fraction)
         for name, vertex, fraction in ((named.origin, origin, 0.0), (named.target, target, 1.0))
     ]
     junctions = _Junctions(*(np.concatenate(column) for column in zip(*tees, strict=True)))
     entered = np.full(int(max(origin.max(initial=-1), target.max(initial=-1))) + 1, -1)
     for name, vertex in ((named.origin, origin), (named.target, target)):
-        rows = np.flatnonzero(name[:, 0] >> 1 == ENTRY)
-        entered[vertex[rows]] = name[rows, 2]
+        _enter(entered, name, vertex, solids)
     return _split(named, origin, target, junctions), entered
 
 
+def _enter(entered: Ints, name: Ints, vertex: Ints, solids: Solids) -> None:
+    """Write the solids that contours enter: a ball or stick in an ENTRY, another stick in an ELBOW, its ball in an EDGE
+    but for joints."""
+    kind = name[:, 0] >> 1
+    rows = np.flatnonzero((kind == ENTRY) | (kind == ELBOW))
+    entered[vertex[rows]] = name[rows, 2]
+    rows = np.flatnonzero(kind == EDGE)
+    end = name[rows, 1] - solids.count
+    entered[vertex[rows]] = np.where(solids.sticks.ends.joint[end], -1, solids.sticks.ends.sphere[end])
+
+
 def _junctions(
-    named: NamedArcs,
-    curves: Curves,
-    horizons: Curves,
-    spheres: SphereOccluders,
-    name: Ints,
-    vertex: Ints,
-    fraction: float,
+    named: NamedArcs, curves: Curves, solids: Solids, central: bool, name: Ints, vertex: Ints, fraction: float
 ) -> _Junctions:
-    """Where the arcs that end in a TEE, at their starts (fraction 0) or ends (1), meet the horizon above them."""
-    rows = np.flatnonzero(name[:, 0] >> 1 == TEE)
-    above = name[rows, 2]
+    """Where the arcs that end in a TEE or a HALF, at their starts (fraction 0) or ends (1), meet the contour there."""
+    kind, count = name[:, 0] >> 1, solids.count
+    rows = np.flatnonzero((kind == TEE) | (kind == HALF))
+    above = np.where(kind[rows] == TEE, name[rows, 2], name[rows, 1] + (name[rows, 0] & 1))
+    if np.any(above < 0):
+        raise Degenerate
     points = curves.at(named.curve[rows], named.start[rows] + fraction * named.sweep[rows])
-    angle = spheres.horizon_angle(horizons, above, points)
-    arc, offset = _located(named, len(curves.first) - len(horizons.first) + above, angle)
+    angle = np.empty(len(rows))
+    line = above >= count
+    horizons = curves.of_kind(HORIZON)
+    angle[~line] = solids.spheres.horizon_angle(horizons, above[~line], points[~line])
+    angle[line] = solids.sticks.line_angle(above[line] - count, points[line], central)
+    angle[kind[rows] == HALF] = np.pi / 2
+    contour = np.flatnonzero(curves.is_contour())
+    arc, offset = _located(named, contour[above], angle)
     return _Junctions(arc, offset, vertex[rows])
 
 

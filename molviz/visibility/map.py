@@ -13,28 +13,31 @@ from molviz.curves import PlaneArcs
 from molviz.geometry.boundary import Boundary
 from molviz.geometry.grid import Neighbours
 from molviz.geometry.planar_map import Loops, PlanarMap, loops, planar_map
-from molviz.geometry.rows import expand
 from molviz.model.spheres import Spheres
-from molviz.visibility.curves import HORIZON, Curves
+from molviz.visibility.curves import CREASE, HORIZON, LINE, Curves
 from molviz.visibility.junctions import CurveArcs, split_at_junctions
 from molviz.visibility.named_arcs import Hidden, joined, visible_arcs
 from molviz.visibility.occluders.sphere import SphereOccluders
+from molviz.visibility.occluders.stick import StickOccluders
 from molviz.visibility.occlusion import creases_hidden, discs_of, horizons_hidden, overlaps
 from molviz.visibility.own_occlusion import beyond_own_plane, creases_in_view, outside_free_arcs
-from molviz.visibility.projection import Projection
+from molviz.visibility.projection import Projection, arcs_on_page
+from molviz.visibility.solids import BACKGROUND, Solids
+from molviz.visibility.stick_curves import caps_on_horizons, hidden_of_own, stick_curves
+from molviz.visibility.stick_occlusion import hidden_by_spheres, hidden_by_sticks, sticks_before, sticks_before_spheres
 from molviz.visibility.view import View
-
-BACKGROUND = -1
 
 
 class VisibilityMap(NamedTuple):
     """The map of one view: arcs of curves, and the planar map they form; lengths in ångström.
 
-    Faces carry the number of the sphere seen there, BACKGROUND where there is none.
+    Faces carry the number of the sphere or half stick seen there, BACKGROUND where there is none. Of k sticks between n
+    spheres, the half at the first ball of stick j is number n + 2 j, the other n + 2 j + 1.
     """
 
     spheres: Spheres  # in eye coordinates
-    curves: Curves  # creases, then one horizon for each sphere in turn; eye coordinates
+    sticks: StickOccluders  # in eye coordinates, those that have a silhouette
+    curves: Curves  # creases, curves of sticks, one horizon for each sphere in turn, lines; eye coordinates
     curve_arcs: CurveArcs  # (k,) the arcs on their curves
     arcs: PlaneArcs  # (k,) the same on the page
     edges: PlanarMap  # (2k,)
@@ -54,6 +57,10 @@ class VisibilityMap(NamedTuple):
         """Return which arcs (k,) are creases; the others are horizons."""
         return self.curves.is_crease()[self.curve_arcs.curve]
 
+    def owner(self) -> Ints:
+        """Return the sphere (n + 2k,) of each solid: itself, or that at the end of a half stick."""
+        return np.append(np.arange(len(self.spheres.radius)), self.sticks.ends.sphere)
+
     def horizons(self) -> Curves:
         """Return the horizons, in the order of the spheres."""
         return self.curves.of_kind(HORIZON)
@@ -66,37 +73,65 @@ class VisibilityMap(NamedTuple):
 
 def map_in_view(
     boundary: Boundary,
-    spheres: SphereOccluders,
+    solids: Solids,
     wanted: Ints,
     view: View,
     projection: Projection,
     label: Ints | None = None,
 ) -> VisibilityMap:
-    """Return the map of what is seen of the ``wanted`` spheres (ascending), as if there were no others.
+    """Return the map of what is seen of the ``wanted`` spheres (ascending) and their sticks, as if there were no others.
 
-    ``spheres`` are the boundary's in eye coordinates; the map numbers spheres by their place in ``wanted``. Where a
-    ``label`` (n,) from 0 of all spheres is given, faces carry labels, and only what separates different ones is
-    computed. Raises ``Degenerate`` where the spheres are not in general position.
+    The spheres of ``solids`` are the wanted ones of the boundary, in eye coordinates; the map numbers them by their
+    place in ``wanted``. Where a ``label`` (n,) from 0 of all the boundary's spheres is given (and no sticks),
+    faces carry labels, and only what separates different ones is computed. Raises ``Degenerate`` where the solids are not in general position.
     """
-    spheres, label = spheres.take(wanted), np.arange(len(wanted)) if label is None else label[wanted]
+    spheres = solids.spheres
+    number = np.arange(solids.count + len(solids.sticks.ends.sphere))
+    label = number if label is None else label[wanted]
     creases, hidden = _creases_between(boundary, wanted, label, view)
     horizons = spheres.horizons()
-    curves = creases.followed_by(horizons)
     discs = discs_of(horizons, projection)
     near = overlaps(discs)
-    count = len(creases.first)
     nearness = spheres.nearness()
     nearer = np.where(nearness[creases.first] > nearness[creases.second], creases.first, creases.second)
-    hidden = joined([
+    parts = [
         hidden,
-        beyond_own_plane(spheres, creases, np.arange(count), nearer),
-        horizons_hidden(spheres, horizons, near, count),
+        beyond_own_plane(spheres, creases, np.arange(len(creases.first)), nearer),
+        horizons_hidden(spheres, horizons, near, len(creases.first)),
         *creases_hidden(spheres, creases, projection, near, discs),
-    ])  # fmt: skip
-    named = visible_arcs(curves, np.arange(len(curves.first)), hidden)
-    curve_arcs, entered = split_at_junctions(named, curves, horizons, spheres)
-    sides = _sides(spheres, curves, curve_arcs, entered, near, projection)
-    return _assembled(spheres, curves, curve_arcs, np.append(label, BACKGROUND)[sides], projection)
+    ]
+    curves = creases.followed_by(horizons)
+    if len(solids.sticks.length):
+        near = solids.overlaps(projection, view)
+        curves, more = _with_sticks(solids, creases, horizons, near)
+        parts += more
+    named = visible_arcs(curves, np.arange(len(curves.first)), joined(parts), solids.count)
+    curve_arcs, entered = split_at_junctions(named, curves, solids, view.distance is not None)
+    sides = _sides(solids, curves, curve_arcs, entered, near, projection)
+    return _assembled(solids, curves, curve_arcs, np.append(label, BACKGROUND)[sides], projection)
+
+
+def _with_sticks(
+    solids: Solids, creases: Curves, horizons: Curves, near: Neighbours
+) -> tuple[Curves, list[Hidden]]:
+    """All curves, those of sticks after the others, and what sticks hide and what is hidden of them.
+
+    ``near`` are the overlaps of spheres and sticks on the page.
+    """
+    spheres, sticks, count = solids.spheres, solids.sticks, solids.count
+    of = stick_curves(sticks, count)
+    plain = creases.followed_by(horizons)
+    start = len(plain.first)
+    curves = plain.followed_by(of.curves)
+    own = caps_on_horizons(sticks, spheres, horizons, of, count)
+    before_sticks = sticks_before(sticks, of, near, count)
+    return curves, [
+        own._replace(curve=own.curve + len(creases.first)),
+        *hidden_of_own(sticks, spheres, of, start),
+        *hidden_by_spheres(spheres, sticks, of, near, start),
+        *hidden_by_sticks(sticks, curves, *sticks_before_spheres(sticks, plain.first, plain.second, near, count), count),
+        *hidden_by_sticks(sticks, curves, before_sticks[0] + start, before_sticks[1], count),
+    ]
 
 
 def _creases_between(boundary: Boundary, wanted: Ints, label: Ints, view: View) -> tuple[Curves, Hidden]:
@@ -115,23 +150,30 @@ def _creases_between(boundary: Boundary, wanted: Ints, label: Ints, view: View) 
 
 
 def _sides(
-    spheres: SphereOccluders,
+    solids: Solids,
     curves: Curves,
     curve_arcs: CurveArcs,
     entered: Ints,
     near: Neighbours,
     projection: Projection,
 ) -> Ints:
-    """The spheres on the left and the right of each arc (2, k), BACKGROUND where there is none.
+    """The solids on the left and the right of each arc (2, k), BACKGROUND where there is none.
 
-    ``second`` lies left and ``first`` right of a crease, on the right of a horizon what is behind it. Beside a horizon
-    that is about to enter a ball that ball is seen, however short the arc: of neighbours at almost one height it is as
-    short as the square of their difference, and its middle would be a matter of rounding.
+    ``second`` lies left and ``first`` right of a crease, on the right of a contour what is behind it, on the left of a
+    line the half of the stick. Beside a contour that is about to enter a solid that solid is seen, however short the
+    arc: of neighbours at almost one height it is as short as the square of their difference, and its middle would be a
+    matter of rounding.
     """
     left, right = curves.second[curve_arcs.curve], curves.first[curve_arcs.curve]
-    rows = np.flatnonzero(~curves.is_crease()[curve_arcs.curve])
-    arcs = projection.page_arcs(curves, curve_arcs.curve[rows], curve_arcs.start[rows], curve_arcs.sweep[rows])
-    right[rows] = _behind(spheres, left[rows], arcs.at(arcs.middle()), near)
+    rows = np.flatnonzero(curves.is_contour()[curve_arcs.curve])
+    line = rows[curves.kind[curve_arcs.curve[rows]] == LINE]
+    at_first = line[curve_arcs.start[line] + curve_arcs.sweep[line] / 2 < np.pi / 2]
+    left[at_first] = right[at_first]
+    own = left[rows].copy()
+    own[own >= solids.count] = (own[own >= solids.count] + solids.count) // 2  # the sticks are numbered from n in near
+    arc = curve_arcs.take(rows)
+    arcs = arcs_on_page(curves, arc.curve, arc.start, arc.sweep, projection)
+    right[rows] = solids.nearest(near, own, arcs.at(arcs.middle()), projection)
     for end, other in ((curve_arcs.origin, curve_arcs.target), (curve_arcs.target, curve_arcs.origin)):
         beside = rows[(entered[end[rows]] >= 0) & (entered[other[rows]] < 0)]
         right[beside] = entered[end[beside]]
@@ -139,23 +181,11 @@ def _sides(
 
 
 def _assembled(
-    spheres: SphereOccluders, curves: Curves, curve_arcs: CurveArcs, sides: Ints, projection: Projection
+    solids: Solids, curves: Curves, curve_arcs: CurveArcs, sides: Ints, projection: Projection
 ) -> VisibilityMap:
     """The map of the arcs whose sides (2, k) carry different labels."""
     rows = np.flatnonzero(sides[0] != sides[1])
     curve_arcs = curve_arcs.take(rows)
-    arcs = projection.page_arcs(curves, curve_arcs.curve, curve_arcs.start, curve_arcs.sweep)
+    arcs = arcs_on_page(curves, curve_arcs.curve, curve_arcs.start, curve_arcs.sweep, projection)
     edges = planar_map(curve_arcs.origin, curve_arcs.target, sides[0, rows], sides[1, rows])
-    return VisibilityMap(spheres.spheres, curves, curve_arcs, arcs, edges, loops(edges))
-
-
-def _behind(spheres: SphereOccluders, own: Ints, points: np.ndarray, near: Neighbours) -> Ints:
-    """The sphere seen just outside each visible point of a horizon: the nearest other surface there, or BACKGROUND."""
-    row, entry = expand(near.start[own], near.start[own + 1])
-    sphere = near.item[entry]
-    surface = spheres.surface(sphere, points[row])
-    rows = np.flatnonzero(surface > -np.inf)
-    rows = rows[np.lexsort((surface[rows], row[rows]))]
-    behind = np.full(len(own), BACKGROUND)
-    behind[row[rows]] = sphere[rows]  # ascending: the last one written is the nearest
-    return behind
+    return VisibilityMap(solids.spheres.spheres, solids.sticks, curves, curve_arcs, arcs, edges, loops(edges))

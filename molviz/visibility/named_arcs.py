@@ -4,7 +4,12 @@ Where an arc ends is known by *why* it ends, never by comparing coordinates. Thr
 
 * ``TRIPLE (i, j, k)``: the crease of two spheres enters a third ball; the creases of all three pairs end there.
 * ``ENTRY (i, j)``: the horizon of i enters ball j; the crease of i and j, which sinks below it there, ends too.
-* ``TEE (a, k)``: arc a passes under the horizon of a nearer sphere k, and nothing else ends there.
+* ``TEE (a, k)``: arc a passes under the contour k of a nearer solid, and nothing else ends there. Contours are
+  numbered: the horizons of the spheres, then the silhouette lines of the sticks, two of each.
+* ``EDGE (h)``: the silhouette line of stick half h ends in its ball, and its rim turns away from the eye. At a joint the
+  horizon of the ball ends there too.
+* ``ELBOW (h, l)``: the silhouette line of h enters stick half l of the same joint, and their elbow turns away.
+* ``HALF (h)``: the border of h and its stick's other half meets a silhouette line.
 
 Three spheres, or a horizon and a sphere, meet in two points, mirror images of each other; ``side`` tells which. An
 interval ``φ ± h`` of a circle with axis a × b inside a half-space with normal g ends on the side where ``(a × b) × g``
@@ -18,16 +23,15 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.geometry.intervals import Intervals, gaps
 from molviz.visibility.curves import Curves
-
-TRIPLE, ENTRY, TEE, WHOLE = range(4)
-BALL, OWN, FRONT = range(3)  # why an interval is hidden: inside a ball, behind the curve's own sphere, or one in front
+from molviz.visibility.names import BALL, ENTRY, OWN, TEE, TRIPLE, WHOLE, named
+from molviz.visibility.stick_names import name_stick_ends
 
 
 class Hidden(NamedTuple):
     """Hidden intervals of numbered curves, and what hides them.
 
-    ``leaves`` and ``enters`` are the spheres concerned at the interval's end (where the curve comes out) and at its
-    start (where it goes in); they differ only where several intervals have been merged into one.
+    ``leaves`` and ``enters`` are the solids concerned at the interval's end (where the curve comes out) and at its
+    start (where it goes in), contours where the reason is FRONT; they may differ where several intervals were merged.
     """
 
     curve: Ints  # (m,)
@@ -54,46 +58,48 @@ def joined(parts: list[Hidden]) -> Hidden:
     return Hidden(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
-def visible_arcs(curves: Curves, instance_curve: Ints, hidden: Hidden) -> NamedArcs:
-    """Return what the hidden intervals leave of each curve; their number c means the curve ``instance_curve[c]``."""
+def visible_arcs(curves: Curves, instance_curve: Ints, hidden: Hidden, spheres: int | None = None) -> NamedArcs:
+    """Return what the hidden intervals leave of each curve; their number c means the curve ``instance_curve[c]``.
+
+    Halves of sticks, if there are any, are numbered from ``spheres``.
+    """
     free = gaps(Intervals(hidden.curve, hidden.start, hidden.sweep), len(instance_curve))
     curve = instance_curve[free.circle]
     number = np.arange(len(curve))
-    origin = _names(curves, curve, number, hidden.reason, hidden.leaves, free.before, 1)
-    target = _names(curves, curve, number, hidden.reason, hidden.enters, free.after, 0)
+    origin = _names(curves, curve, number, hidden.reason, hidden.leaves, free.before, 1, spheres)
+    target = _names(curves, curve, number, hidden.reason, hidden.enters, free.after, 0, spheres)
     return NamedArcs(curve, free.start, free.sweep, free.circle, origin, target)
 
 
-def _names(curves: Curves, curve: Ints, number: Ints, reason: Ints, sphere: Ints, row: Ints, side: int) -> Ints:
+def _names(
+    curves: Curves, curve: Ints, number: Ints, reason: Ints, sphere: Ints, row: Ints, side: int, spheres: int | None
+) -> Ints:
     """Names (k, 4) of the ends of arcs at ends (side 1) or starts (side 0) of the given hidden intervals."""
     first, second = curves.first[curve], curves.second[curve]
     why, other = np.append(reason, -1)[row], np.append(sphere, -1)[row]
     is_crease, whole = curves.is_crease()[curve], row < 0
-    name = _named(np.full(len(curve), TEE), side, number, other, -1)
-    name[whole] = _named(np.full(len(curve), WHOLE), 0, number, -1, -1)[whole]
+    name = named(np.full(len(curve), TEE), side, number, other, -1)
+    name[whole] = named(np.full(len(curve), WHOLE), 0, number, -1, -1)[whole]
     triple = ~whole & is_crease & (why == BALL)
     name[triple] = _triple(first[triple], second[triple], other[triple], side)
     sinks = ~whole & is_crease & (why == OWN)
     name[sinks] = _entry(other[sinks], (first + second - other)[sinks], side ^ (other == second)[sinks])
     enters = ~whole & ~is_crease & (why == BALL)
     name[enters] = _entry(first[enters], other[enters], np.full(int(enters.sum()), side))
+    if spheres is not None:
+        name_stick_ends(name, curves, curve, np.where(whole, -1, why), other, side, spheres)
     return name
-
-
-def _named(kind: Ints, side: Ints | int, *numbers: Ints | int) -> Ints:
-    columns = [kind * 2 + side, *numbers]
-    return np.stack([np.broadcast_to(column, kind.shape) for column in columns], axis=1).astype(np.int64)
 
 
 def _triple(i: Ints, j: Ints, k: Ints, side: int) -> Ints:
     """i < j; sorting (i, j, k) is an odd permutation exactly if k belongs between them, and mirrors the sides."""
     low, high = np.minimum(i, k), np.maximum(j, k)
     odd = (i < k) & (k < j)
-    return _named(np.full(len(i), TRIPLE), side ^ odd, low, i + j + k - low - high, high)
+    return named(np.full(len(i), TRIPLE), side ^ odd, low, i + j + k - low - high, high)
 
 
 def _entry(sphere: Ints, other: Ints, side: Ints) -> Ints:
-    return _named(np.full(len(sphere), ENTRY), side, sphere, other, -1)
+    return named(np.full(len(sphere), ENTRY), side, sphere, other, -1)
 
 
 def vertex_numbers(*names: Ints) -> list[Ints]:

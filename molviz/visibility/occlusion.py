@@ -13,7 +13,8 @@ from molviz.vectors import dot
 from molviz.visibility.conics import Harmonics, harmonics, roots
 from molviz.visibility.curves import Curves
 from molviz.visibility.forms import Linear
-from molviz.visibility.named_arcs import BALL, FRONT, Hidden
+from molviz.visibility.named_arcs import Hidden
+from molviz.visibility.names import BALL, FRONT
 from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.projection import Projection, images_of
 
@@ -77,14 +78,14 @@ def creases_hidden(
         reach = image.radius[curve] + discs.radius[sphere]
         rows = np.flatnonzero(dot(apart, apart) < reach**2)
         hidden += [
-            _occlusion(spheres, creases, curve[part], sphere[part])
+            occlusion(spheres, creases, curve[part], sphere[part])
             for part in np.array_split(rows, len(rows) // BLOCK_ROWS + 1)
         ]
     return hidden
 
 
-def _occlusion(spheres: SphereOccluders, curves: Curves, curve: Ints, sphere: Ints) -> Hidden:
-    """The intervals of each curve inside the sphere's cone and beyond its plane, by their end points.
+def occlusion(spheres: SphereOccluders, curves: Curves, curve: Ints, sphere: Ints) -> Hidden:
+    """Return the intervals of each curve inside the sphere's cone and beyond its plane, by their end points.
 
     End points are the roots of the cone's function beyond the plane, and those of the plane's inside the cone; between
     consecutive ones a curve is hidden or not as a whole, as its middle is.

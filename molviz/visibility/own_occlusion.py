@@ -8,7 +8,8 @@ from molviz.geometry.circles import Circles
 from molviz.geometry.intervals import TURN, above
 from molviz.visibility.curves import Curves, creases_of
 from molviz.visibility.eye import eye_of
-from molviz.visibility.named_arcs import BALL, OWN, Hidden
+from molviz.visibility.named_arcs import Hidden
+from molviz.visibility.names import BALL, OWN
 from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.view import View
 

@@ -16,7 +16,8 @@ from molviz.geometry.planar_map import UNUSED, Loops, PlanarMap, loops, planar_m
 from molviz.geometry.rows import expand
 from molviz.visibility.curves import Curves
 from molviz.visibility.junctions import CurveArcs
-from molviz.visibility.named_arcs import BALL, Hidden, NamedArcs, joined, vertex_numbers, visible_arcs
+from molviz.visibility.named_arcs import Hidden, NamedArcs, joined, vertex_numbers, visible_arcs
+from molviz.visibility.names import BALL
 from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.own_occlusion import beyond_own_plane, creases_in_view, outside_free_arcs
 from molviz.visibility.projection import Projection

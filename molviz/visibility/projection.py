@@ -9,9 +9,9 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.curves import PlaneArcs
+from molviz.curves import PlaneArcs, straight_pieces
 from molviz.model.spheres import Spheres
-from molviz.visibility.curves import Curves
+from molviz.visibility.curves import LINE, Curves
 
 
 class Projection(Protocol):
@@ -28,7 +28,13 @@ class Projection(Protocol):
         """Return the images (m, 2) of points (m, 3)."""
 
     def page_arcs(self, curves: Curves, curve: Ints, start: Floats, sweep: Floats) -> PlaneArcs:
-        """Return the images of arcs of curves."""
+        """Return the images of arcs of circles and ellipses."""
+
+    def rays(self, page: Floats) -> tuple[Floats, Floats]:
+        """Return where the lines of sight through page points (m, 2) begin, and their unit directions (m, 3).
+
+        How far along it a point lies is minus its nearness.
+        """
 
     def receded(self, spheres: Spheres, by: float) -> Spheres:
         """Return the spheres farther from the eye by a length, with the same images."""
@@ -51,6 +57,11 @@ class Parallel:
         """Drop z."""
         center, a, b = (column[curve, :2] for column in (curves.center, curves.a, curves.b))
         return PlaneArcs(center, a, b, start, sweep)
+
+    def rays(self, page: Floats) -> tuple[Floats, Floats]:
+        """Down the z axis, from z = 0."""
+        level = np.zeros(len(page))
+        return np.column_stack([page, level]), np.column_stack([0.0 * page, level - 1.0])
 
     def receded(self, spheres: Spheres, by: float) -> Spheres:
         """Lower z."""
@@ -94,6 +105,11 @@ class Central(NamedTuple):
         first, last = (_eccentric(angle - deepest, e[:, 0]) for angle in (start, start + sweep))
         return PlaneArcs(c, u, v, first, last - first)
 
+    def rays(self, page: Floats) -> tuple[Floats, Floats]:
+        """From the eye."""
+        ray = np.column_stack([page, np.full(len(page), -self.distance)])
+        return np.zeros_like(ray), ray / np.linalg.norm(ray, axis=1)[:, None]
+
     def receded(self, spheres: Spheres, by: float) -> Spheres:
         """Scale about the eye."""
         factor = 1.0 + by / np.linalg.norm(spheres.center, axis=1)
@@ -107,6 +123,18 @@ def _eccentric(angle: Floats, e: Floats) -> Floats:
     """
     beta = e / (1 + np.sqrt(1 - e**2))
     return np.asarray(angle - 2 * np.arctan2(beta * np.sin(angle), 1 + beta * np.cos(angle)))
+
+
+def arcs_on_page(curves: Curves, curve: Ints, start: Floats, sweep: Floats, projection: Projection) -> PlaneArcs:
+    """Return the images of arcs of curves; those of lines as straight pieces, whatever the pace."""
+    arcs = projection.page_arcs(curves, curve, start, sweep)
+    rows = np.flatnonzero(curves.kind[curve] == LINE)
+    if not len(rows):
+        return arcs
+    ends = (projection.page_points(curves.at(curve[rows], at)) for at in (start[rows], (start + sweep)[rows]))
+    for column, piece in zip(arcs, straight_pieces(*ends), strict=True):
+        column[rows] = piece
+    return arcs
 
 
 def images_of(curves: Curves, projection: Projection) -> PlaneArcs:

@@ -8,32 +8,44 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.errors import InputError, InternalError
 from molviz.geometry.boundary import Boundary, union_boundary
-from molviz.geometry.general_position import first_general, general_position
+from molviz.geometry.general_position import DISPLACEMENT, first_general, general_position
 from molviz.model.spheres import Spheres
+from molviz.model.sticks import NO_STICKS, Sticks
 from molviz.visibility.culling import outlines, possibly_visible
-from molviz.visibility.eye import eye_coordinates, occluders_of, projection_of, refuse_eye_among
+from molviz.visibility.eye import (
+    eye_coordinates,
+    occluders_of,
+    projection_of,
+    refuse_eye_among,
+    sticks_in_view,
+)
 from molviz.visibility.map import VisibilityMap, map_in_view
 from molviz.visibility.painter import Pieces, painter_pieces
+from molviz.visibility.solids import Solids
 from molviz.visibility.view import View
 
 T = TypeVar("T")
 
 
 class Prepared(NamedTuple):
-    """A displaced copy of a scene's spheres, and their rows in the scene."""
+    """A displaced copy of a scene's spheres, their rows in the scene, and the sticks between them."""
 
     boundary: Boundary
     row: Ints  # (s,)
+    sticks: Sticks
 
 
 class Scene:
-    """Spheres to look at. What no view changes, the displacement and the union boundary, is computed once and kept.
+    """Spheres and sticks to look at. What no view changes, displacement and union boundary, is computed once and kept.
+
+    Sticks may meet the two balls that they join, and others as wide as their common ball, but nothing else: sticks of
+    one ball not outside it, and no others at all.
 
     Where only one view is wanted, naming it spares the work for spheres that it hides; no other may be asked for then.
     """
 
-    def __init__(self, spheres: Spheres, only: View | None = None) -> None:
-        self.spheres, self.only = spheres, only
+    def __init__(self, spheres: Spheres, only: View | None = None, sticks: Sticks = NO_STICKS) -> None:
+        self.spheres, self.only, self.sticks = spheres, only, sticks
         self._prepared: dict[int, Prepared] = {}
 
     def __repr__(self) -> str:
@@ -62,16 +74,23 @@ class Scene:
 
     def _attempt(self, attempt: int) -> Prepared:
         if attempt not in self._prepared:
-            self._prepared[attempt] = _prepare(self.spheres, attempt, self.only)
+            self._prepared[attempt] = _prepare(self.spheres, self.sticks, attempt, self.only)
         return self._prepared[attempt]
 
 
-def _prepare(spheres: Spheres, attempt: int, only: View | None) -> Prepared:
+def _prepare(spheres: Spheres, sticks: Sticks, attempt: int, only: View | None) -> Prepared:
     displaced, row = general_position(spheres, attempt)
+    sticks = sticks._replace(radius=sticks.radius * (1.0 - 1.01 * DISPLACEMENT)).among(row, len(spheres.radius))
     if only is not None:
-        keep = _possibly_visible(displaced, only)
+        keep = _wanted(displaced, sticks, only)
+        sticks = sticks.among(keep, len(row))
         displaced, row = displaced.take(keep), row[keep]
-    return Prepared(union_boundary(displaced), row)
+    return Prepared(union_boundary(displaced), row, sticks)
+
+
+def _wanted(spheres: Spheres, sticks: Sticks, view: View) -> Ints:
+    """The spheres that may be seen, and all with sticks."""
+    return np.union1d(_possibly_visible(spheres, view), np.append(sticks.first, sticks.second))
 
 
 def _possibly_visible(spheres: Spheres, view: View) -> Ints:
@@ -80,10 +99,14 @@ def _possibly_visible(spheres: Spheres, view: View) -> Ints:
 
 
 def _map(prepared: Prepared, view: View, label: Ints | None = None) -> tuple[VisibilityMap, Ints]:
-    spheres, wanted = prepared.boundary.spheres, _possibly_visible(prepared.boundary.spheres, view)
-    occluders = occluders_of(eye_coordinates(spheres, view), view)
+    spheres, sticks = prepared.boundary.spheres, prepared.sticks
+    wanted = _wanted(spheres, sticks, view)
+    seen = eye_coordinates(spheres.take(wanted), view)
+    solids = Solids(
+        occluders_of(seen, view), sticks_in_view(seen, sticks.among(wanted, len(spheres.radius)), view)
+    )
     labels = None if label is None else label[prepared.row]
-    view_map = map_in_view(prepared.boundary, occluders, wanted, view, projection_of(view), labels)
+    view_map = map_in_view(prepared.boundary, solids, wanted, view, projection_of(view), labels)
     return view_map, prepared.row[wanted]
 
 
@@ -101,9 +124,9 @@ def labelled_map(spheres: Spheres, label: Ints, view: View) -> VisibilityMap:
 
     def prepared(attempt: int) -> Prepared:
         if attempt:
-            return _prepare(spheres, attempt - 1, view)
+            return _prepare(spheres, NO_STICKS, attempt - 1, view)
         keep = _possibly_visible(spheres, view)
-        return Prepared(union_boundary(spheres.take(keep)), keep)
+        return Prepared(union_boundary(spheres.take(keep)), keep, NO_STICKS)
 
     return first_general(lambda attempt: _map(prepared(attempt), view, label)[0])
 

@@ -1,0 +1,70 @@
+"""Spheres and sticks together: what is seen at a point of the page, and whose curves come near whose."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from molviz.arrays import Floats, Ints
+from molviz.geometry.grid import Neighbours
+from molviz.geometry.rows import expand
+from molviz.model.spheres import Spheres
+from molviz.visibility.eye import occluders_of
+from molviz.visibility.occluders.sphere import SphereOccluders
+from molviz.visibility.occluders.stick import StickOccluders
+from molviz.visibility.occlusion import Discs, discs_of, overlaps
+from molviz.visibility.projection import Projection
+from molviz.visibility.view import View
+
+BACKGROUND = -1
+
+
+class Solids(NamedTuple):
+    """n spheres and k sticks; halves of sticks are numbered n + 2 k + end, those at the first ball and at the second."""
+
+    spheres: SphereOccluders
+    sticks: StickOccluders
+
+    @property
+    def count(self) -> int:
+        """The number of spheres."""
+        return len(self.spheres.spheres.radius)
+
+    def overlaps(self, projection: Projection, view: View) -> Neighbours:
+        """Return which of n spheres and k sticks may overlap each on the page."""
+        discs = discs_of(self.spheres.horizons(), projection)
+        if len(self.sticks.length):
+            around = discs_of(occluders_of(self._around_sticks(), view).horizons(), projection)
+            discs = Discs(*(np.concatenate(columns) for columns in zip(discs, around, strict=True)))
+        return overlaps(discs)
+
+    def _around_sticks(self) -> Spheres:
+        """A sphere around each stick."""
+        half = self.sticks.length / 2
+        center = self.sticks.start + self.sticks.direction * half[:, None]
+        return Spheres(center, np.hypot(half, self.sticks.radius))
+
+    def surfaces(self, entry: Ints, page: Floats, projection: Projection) -> tuple[Floats, Ints]:
+        """Return how near each of n spheres and k sticks lies at page points (m, 2), −∞ beside it; and which solid."""
+        stick = np.flatnonzero(entry >= self.count)
+        if not len(stick):
+            return self.spheres.surface(entry, page), entry
+        ball = np.flatnonzero(entry < self.count)
+        nearness, solid = np.empty(len(entry)), entry.copy()
+        nearness[ball] = self.spheres.surface(entry[ball], page[ball])
+        row = entry[stick] - self.count
+        far, beyond = self.sticks.hits(row, *projection.rays(page[stick]))
+        nearness[stick], solid[stick] = -far, self.count + 2 * row + beyond
+        return nearness, solid
+
+    def nearest(self, near: Neighbours, own: Ints, points: Floats, projection: Projection) -> Ints:
+        """Return the solid seen at page points (m, 2) on the images of spheres or sticks ``own`` (m,), itself left out.
+
+        BACKGROUND where there is none.
+        """
+        row, entry = expand(near.start[own], near.start[own + 1])
+        surface, solid = self.surfaces(near.item[entry], points[row], projection)
+        rows = np.flatnonzero(surface > -np.inf)
+        rows = rows[np.lexsort((surface[rows], row[rows]))]
+        nearest = np.full(len(own), BACKGROUND)
+        nearest[row[rows]] = solid[rows]  # ascending: the last one written is the nearest
+        return nearest

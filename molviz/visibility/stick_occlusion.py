@@ -1,0 +1,139 @@
+"""What sticks in front hide of all curves, and spheres in front of the curves of sticks."""
+
+import numpy as np
+
+from molviz.arrays import Bools, Floats, Ints
+from molviz.geometry.grid import Neighbours
+from molviz.geometry.intervals import TURN, above
+from molviz.geometry.rows import expand
+from molviz.visibility.curves import Curves
+from molviz.visibility.named_arcs import Hidden
+from molviz.visibility.names import FRONT
+from molviz.visibility.occluders.sphere import SphereOccluders
+from molviz.visibility.occluders.stick import LINES, StickOccluders
+from molviz.visibility.occlusion import BLOCK_ROWS, occlusion
+from molviz.visibility.stick_curves import StickCurves
+
+CONDITIONS = 5
+NO_CONTOUR = -1  # an end that no contour explains; arcs that end there are degenerate
+
+
+def hidden_by_sticks(sticks: StickOccluders, curves: Curves, curve: Ints, stick: Ints, count: int) -> list[Hidden]:
+    """Return the intervals of the given curves behind the given sticks, in blocks; their lines are contours from
+    ``count``."""
+    return [
+        _behind(sticks, curves, curve[part], stick[part], count)
+        for part in np.array_split(np.arange(len(curve)), len(curve) // (BLOCK_ROWS // 4) + 1)
+    ]
+
+
+def _behind(sticks: StickOccluders, curves: Curves, curve: Ints, stick: Ints, count: int) -> Hidden:
+    """The intervals on which all five conditions hold, by their end points.
+
+    An end of one condition counts where the other four hold; between consecutive ones a curve is hidden or not as a
+    whole. Where a curve passes behind one of the two lines is a T-junction; elsewhere balls hide it on either side.
+    """
+    for condition in (LINES, 3, 4):  # those that most rows fail come first
+        margin = sticks.behind(curves, curve, stick, condition)
+        rows = np.flatnonzero(margin.c + np.hypot(margin.a, margin.b) > 0)
+        curve, stick = curve[rows], stick[rows]
+    margins = [sticks.behind(curves, curve, stick, condition) for condition in range(CONDITIONS)]
+    angle, real = _ends(margins)
+    angle = np.where(real, angle, np.nan)
+    order = np.argsort(angle, axis=1)
+    start = np.take_along_axis(angle, order, axis=1)
+    amount = np.sum(real, axis=1)
+    last = np.arange(start.shape[1]) == amount[:, None] - 1
+    sweep = np.where(last, start[:, :1] + TURN, np.roll(start, -1, axis=1)) - start
+    start[amount == 0, 0], sweep[amount == 0, 0] = 0.0, TURN
+    middle = start + sweep / 2
+    hidden = np.all([margin.at(middle) > 0 for margin in margins], axis=0)
+    row, column = np.nonzero(hidden)
+    after = np.where(column + 1 < np.maximum(amount, 1)[row], column + 1, 0)
+    condition = order // 2
+    enters, leaves = (_contour(condition[row, place], stick[row], count) for place in (column, after))
+    reason = np.full(len(row), FRONT)
+    return Hidden(curve[row], start[row, column], sweep[row, column], reason, leaves, enters)
+
+
+def _ends(margins: list) -> tuple[Floats, Bools]:
+    """The end points (m, 10) of the five conditions in [0, 2π), two each, and which of them count."""
+    angles, exists = [], []
+    for margin in margins:
+        middle, half = above(margin.a, margin.b, -margin.c)
+        cuts = (half > 0) & (half < np.pi)
+        angles += [middle - half, middle + half]
+        exists += [cuts, cuts]
+    angle, real = np.mod(np.stack(angles, axis=1), TURN), np.stack(exists, axis=1)
+    for condition, margin in enumerate(margins):
+        holds = margin.at(angle) > 0
+        holds[:, 2 * condition : 2 * condition + 2] = True
+        real &= holds
+    return angle, real
+
+
+def _contour(condition: Ints, stick: Ints, count: int) -> Ints:
+    return np.where(condition < LINES, count + 2 * stick + condition, NO_CONTOUR)
+
+
+def pairs_with_sticks(near: Neighbours, owner: Ints, first_stick: int) -> tuple[Ints, Ints]:
+    """Return (curve, stick) where the solid ``owner`` (m,) of a curve and the stick overlap on the page.
+
+    Sticks are numbered from ``first_stick`` in ``near``; a curve's own is not listed.
+    """
+    curve, entry = expand(near.start[owner], near.start[owner + 1])
+    rows = near.item[entry] >= first_stick
+    return curve[rows], near.item[entry[rows]] - first_stick
+
+
+def hidden_by_spheres(
+    spheres: SphereOccluders, sticks: StickOccluders, of: StickCurves, near: Neighbours, first_curve: int
+) -> list[Hidden]:
+    """Return what spheres hide of the curves of sticks, which are number ``first_curve`` onwards, in blocks.
+
+    A joint lies inside the cylinders of its sticks, extended: it hides nothing of them. Rims lie on their own spheres.
+    """
+    count = len(spheres.spheres.radius)
+    curve, entry = expand(near.start[count + of.stick], near.start[count + of.stick + 1])
+    sphere = near.item[entry]
+    rows = np.flatnonzero(sphere < count)
+    curve, sphere = curve[rows], sphere[rows]
+    own = _joint_of(sticks, of.stick[curve], sphere) | ((of.end[curve] >= 0) & (of.other[curve] < 0) & (
+        sticks.ends.sphere[of.end[curve]] == sphere))  # fmt: skip
+    margin = spheres.plane_margin(of.curves, curve, sphere)
+    rows = np.flatnonzero(~own & (margin.c + np.hypot(margin.a, margin.b) > 0))
+    parts = [
+        occlusion(spheres, of.curves, curve[part], sphere[part])
+        for part in np.array_split(rows, len(rows) // BLOCK_ROWS + 1)
+    ]
+    return [part._replace(curve=part.curve + first_curve) for part in parts]
+
+
+def sticks_before(sticks: StickOccluders, of: StickCurves, near: Neighbours, count: int) -> tuple[Ints, Ints]:
+    """Return the (curve, stick) of the curves of sticks and what sticks may hide them.
+
+    Neither of an elbow's own does, nor do sticks of a joint hide its rims, which lie on the ball outside of them all.
+    """
+    curve, stick = pairs_with_sticks(near, count + of.stick, count)
+    rim = (of.end[curve] >= 0) & (of.other[curve] < 0)
+    sphere = sticks.ends.sphere[np.where(rim, of.end[curve], 0)]
+    rows = np.flatnonzero((of.other[curve] != stick) & ~(rim & _joint_of(sticks, stick, sphere)))
+    return curve[rows], stick[rows]
+
+
+def sticks_before_spheres(
+    sticks: StickOccluders, first: Ints, second: Ints, near: Neighbours, count: int
+) -> tuple[Ints, Ints]:
+    """Return the (curve, stick) of creases and horizons and what sticks may hide them; no horizon its own sticks at a
+    joint: what they hide lies inside them."""
+    curve, stick = pairs_with_sticks(near, first, count)
+    horizon = first[curve] == second[curve]
+    rows = np.flatnonzero(~(horizon & _joint_of(sticks, stick, first[curve])))
+    return curve[rows], stick[rows]
+
+
+def _joint_of(sticks: StickOccluders, stick: Ints, sphere: Ints) -> Bools:
+    """Whether the spheres are joints at an end of the sticks."""
+    ends = 2 * stick
+    one, other = (sticks.ends.joint[end] & (sticks.ends.sphere[end] == sphere) for end in (ends, ends + 1))
+    return np.asarray(one | other)
