@@ -2,16 +2,19 @@
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints
+from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.errors import InternalError
 from molviz.geometry.intervals import Intervals, above, gaps
 from molviz.geometry.planar_map import euler_defect, loop_areas
 from molviz.geometry.rows import expand
+from molviz.vectors import dot
+from molviz.visibility.curves import SEAM
 from molviz.visibility.eye import occluders_of, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.occlusion import discs_of, overlaps
 from molviz.visibility.projection import Projection
+from molviz.visibility.solids import Solids
 from molviz.visibility.view import View
 
 AREA_TOLERANCE = 1e-9  # of the drawing's area, by which two ways of computing it may differ
@@ -35,13 +38,14 @@ def check_map(view_map: VisibilityMap, view: View) -> None:
 def area_difference(view_map: VisibilityMap, projection: Projection) -> float:
     """Return by how much, relatively, the faces' total area misses that of the union of the discs (parallel views).
 
-    The second comes from the discs' own free arcs alone; a central view, whose outlines are ellipses, compares the
-    faces with the outer loops instead.
+    The second comes from the discs' own free arcs alone; a central view, whose outlines are ellipses, and one with sticks
+    compare the faces with the outer loops instead.
     """
     areas = loop_areas(view_map.arcs, view_map.loops)
     inside = float(areas[view_map.loops.face != BACKGROUND].sum())
     outer = -float(areas[view_map.loops.face == BACKGROUND].sum())
-    whole = _union_of_discs(view_map, projection) if projection.keeps_circles else outer
+    of_discs = projection.keeps_circles and not len(view_map.sticks.length)
+    whole = _union_of_discs(view_map, projection) if of_discs else outer
     return abs(inside - whole) / max(whole, np.finfo(float).tiny)
 
 
@@ -62,33 +66,51 @@ def _union_of_discs(view_map: VisibilityMap, projection: Projection) -> float:
 def arcs_beside_wrong_faces(view_map: VisibilityMap, view: View) -> Ints:
     """Return the arcs beside whose middle the nearest surface is not the face that the map names.
 
-    Arcs that are too short to step beside are left out, and points at which two surfaces are closer than the step.
+    Arcs that are too short to step beside are left out, points at which two surfaces are closer than the step, and seams
+    of joints, of which a strip far thinner than the step may be all that shows.
     """
     arcs = view_map.arcs
     middle = arcs.middle()
     along = arcs.tangent(middle)
     size = np.linalg.norm(along, axis=1)
     step = SIDE_STEP * size * np.minimum(np.abs(arcs.sweep), 1.0)
-    rows = np.flatnonzero(step > LEAST_STEP * view_map.spheres.radius.max())
+    curve = view_map.curve_arcs.curve
+    of_joint = (view_map.curves.kind[curve] == SEAM) & (view_map.curves.first[curve] < len(view_map.spheres.radius))
+    rows = np.flatnonzero((step > LEAST_STEP * view_map.spheres.radius.max()) & ~of_joint)
     left = np.column_stack([-along[rows, 1], along[rows, 0]]) / size[rows, None] * step[rows, None]
     own = view_map.curves.first[view_map.curve_arcs.curve[rows]]
     wrong = np.zeros(len(rows), dtype=bool)
     for side, face in ((1.0, view_map.left), (-1.0, view_map.right)):
         points = arcs.take(rows).at(middle[rows]) + side * left
         margin, nearest = _nearest_surface(view_map, own, points, view)
-        wrong |= (nearest != face[rows]) & (margin > CLEAR * step[rows])
+        wrong |= _differ(view_map, nearest, face[rows]) & (margin > CLEAR * step[rows])
     return rows[wrong]
 
 
+def _differ(view_map: VisibilityMap, one: Ints, other: Ints) -> Bools:
+    """Whether solids are not the same, nor a ball and its own sticks of which a strip thinner than the step may show.
+
+    A joint goes over into its sticks with a common tangent; a stick beside the line of centres leaves its ball through
+    a plane, a little off their true curve.
+    """
+    ends = view_map.sticks.ends
+    close = ends.joint | (dot(ends.offset, ends.offset) > 0)
+    ball = np.append(np.full(len(view_map.spheres.radius), -2), np.where(close, ends.sphere, -2))
+    ball[ends.sphere[close]] = ends.sphere[close]
+    seen = (one >= 0) & (other >= 0)
+    return np.asarray((one != other) & ~(seen & (ball[one] >= 0) & (ball[one] == ball[other])))
+
+
 def _nearest_surface(view_map: VisibilityMap, own: Ints, points: Floats, view: View) -> tuple[Floats, Ints]:
-    """The sphere seen at each page point, on or beside the image of sphere ``own``, and by how much it is nearer."""
-    near = overlaps(discs_of(view_map.horizons(), projection_of(view)))
+    """The solid seen at each page point, on or beside the image of solid ``own``, and by how much it is nearer."""
+    solids, projection = Solids(occluders_of(view_map.spheres, view), view_map.sticks), projection_of(view)
+    near, own = solids.overlaps(projection, view), solids.rows(own)
     row, entry = expand(near.start[own], near.start[own + 1])
-    row, sphere = np.append(row, np.arange(len(own))), np.append(near.item[entry], own)
-    surface = occluders_of(view_map.spheres, view).surface(sphere, points[row])
+    row, entry = np.append(row, np.arange(len(own))), np.append(near.item[entry], own)
+    surface, solid = solids.surfaces(entry, points[row], projection)
     order = np.lexsort((surface, row))
     best, nearest, second = (np.full(len(own), fill) for fill in (-np.inf, BACKGROUND, -np.inf))
-    best[row[order]], nearest[row[order]] = surface[order], sphere[order]  # ascending: the last one is the nearest
+    best[row[order]], nearest[row[order]] = surface[order], solid[order]  # ascending: the last one is the nearest
     behind = order[np.append(row[order][1:] == row[order][:-1], False)]
     second[row[behind]] = surface[behind]
     nearest = np.where(best > -np.inf, nearest, BACKGROUND)

@@ -4,16 +4,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints
+from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
 from molviz.geometry.rows import expand
+from molviz.vectors import dot
 from molviz.visibility.curves import HORIZON, Curves
 from molviz.visibility.named_arcs import NamedArcs, vertex_numbers
 from molviz.visibility.names import EDGE, ELBOW, ENTRY, HALF, TEE, WHOLE
 from molviz.visibility.solids import Solids
 
 SNAP = 1e-9  # radians by which rounding may put a junction outside the arc it lies on
+SNAP_BESIDE = 0.1  # the same where a stick beside the line of centres comes out of its ball through a plane
 
 
 class CurveArcs(NamedTuple):
@@ -84,12 +86,27 @@ def _junctions(
     angle[line] = solids.sticks.line_angle(above[line] - count, points[line], central)
     angle[kind[rows] == HALF] = np.pi / 2
     contour = np.flatnonzero(curves.is_contour())
-    arc, offset = _located(named, contour[above], angle)
+    snap = np.where(_beside_centres(curves, solids, named.curve[rows], above), SNAP_BESIDE, SNAP)
+    arc, offset = _located(named, contour[above], angle, snap)
     return _Junctions(arc, offset, vertex[rows])
 
 
-def _located(named: NamedArcs, curve: Ints, angle: Floats) -> tuple[Ints, Floats]:
-    """The arc of each given curve on which the angle lies, and the offset from its start."""
+def _beside_centres(curves: Curves, solids: Solids, curve: Ints, above: Ints) -> Bools:
+    """Whether a junction is one of a ball's horizon and the line of a stick of it that is beside the line of centres."""
+    own = curves.first[curve]
+    ends = solids.sticks.ends
+    aside = np.append(dot(ends.offset, ends.offset) > 0, False)
+    sphere = np.append(ends.sphere, -2)
+    beside = np.zeros(len(curve), dtype=bool)
+    for line, ball in ((own, above), (above, own)):
+        stick = np.where(line >= solids.count, (line - solids.count) >> 1, len(ends.sphere) >> 1)
+        for end in (2 * stick, np.minimum(2 * stick + 1, len(ends.sphere))):
+            beside |= aside[end] & (sphere[end] == ball)
+    return beside
+
+
+def _located(named: NamedArcs, curve: Ints, angle: Floats, snap: Floats) -> tuple[Ints, Floats]:
+    """The arc of each given curve on which the angle lies, or misses it by ``snap``, and the offset from its start."""
     begin, end = (np.searchsorted(named.curve, curve, side=side) for side in ("left", "right"))
     row, arc = expand(begin, end)
     offset = np.mod(angle[row] - named.start[arc], TURN)
@@ -98,9 +115,10 @@ def _located(named: NamedArcs, curve: Ints, angle: Floats) -> tuple[Ints, Floats
     order = np.lexsort((-outside, row))
     best = np.full(len(curve), -1)
     best[row[order]] = order  # the last one written is the closest
-    if np.any(best < 0) or np.any(outside[best] > SNAP):
+    if np.any(best < 0) or np.any(outside[best] > snap):
         raise Degenerate
-    inside = np.where(outside[best] == 0, offset[best], np.where(offset[best] - sweep[best] < SNAP, sweep[best], 0.0))
+    beyond = offset[best] - sweep[best]
+    inside = np.where(beyond <= 0, offset[best], np.where(beyond < snap, sweep[best], 0.0))
     return arc[best], inside
 
 

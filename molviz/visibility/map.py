@@ -22,6 +22,7 @@ from molviz.visibility.occluders.stick import StickOccluders
 from molviz.visibility.occlusion import creases_hidden, discs_of, horizons_hidden, overlaps
 from molviz.visibility.own_occlusion import beyond_own_plane, creases_in_view, outside_free_arcs
 from molviz.visibility.projection import Projection, arcs_on_page
+from molviz.visibility.settle import settle_ends
 from molviz.visibility.solids import BACKGROUND, Solids
 from molviz.visibility.stick_curves import caps_on_horizons, hidden_of_own, stick_curves
 from molviz.visibility.stick_occlusion import hidden_by_spheres, hidden_by_sticks, sticks_before, sticks_before_spheres
@@ -106,6 +107,7 @@ def map_in_view(
         curves, more = _with_sticks(solids, creases, horizons, near)
         parts += more
     named = visible_arcs(curves, np.arange(len(curves.first)), joined(parts), solids.count)
+    settle_ends(named, curves, solids.sticks, solids.count)
     curve_arcs, entered = split_at_junctions(named, curves, solids, view.distance is not None)
     sides = _sides(solids, curves, curve_arcs, entered, near, projection)
     return _assembled(solids, curves, curve_arcs, np.append(label, BACKGROUND)[sides], projection)
@@ -169,8 +171,7 @@ def _sides(
     line = rows[curves.kind[curve_arcs.curve[rows]] == LINE]
     at_first = line[curve_arcs.start[line] + curve_arcs.sweep[line] / 2 < np.pi / 2]
     left[at_first] = right[at_first]
-    own = left[rows].copy()
-    own[own >= solids.count] = (own[own >= solids.count] + solids.count) // 2  # the sticks are numbered from n in near
+    own = solids.rows(left[rows])
     arc = curve_arcs.take(rows)
     arcs = arcs_on_page(curves, arc.curve, arc.start, arc.sweep, projection)
     right[rows] = solids.nearest(near, own, arcs.at(arcs.middle()), projection)

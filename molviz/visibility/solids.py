@@ -29,6 +29,10 @@ class Solids(NamedTuple):
         """The number of spheres."""
         return len(self.spheres.spheres.radius)
 
+    def rows(self, solid: Ints) -> Ints:
+        """Return the numbers of spheres and sticks, n + k, of solids (m,), which count the halves of sticks."""
+        return np.where(solid < self.count, solid, (solid + self.count) // 2)
+
     def overlaps(self, projection: Projection, view: View) -> Neighbours:
         """Return which of n spheres and k sticks may overlap each on the page."""
         discs = discs_of(self.spheres.horizons(), projection)
