@@ -155,16 +155,19 @@ def newer_name(atom: str) -> str:
 def test_residues_of_samples_are_bonded_as_the_components_say(sample: str) -> None:
     atoms = read(SAMPLES / sample).models[0]
     run = run_of_atom(atoms.chain, atoms.residue, atoms.residue_name)
-    bonds = bonds_of(atoms).atoms
-    inner = {frozenset(pair) for pair in bonds.tolist() if run[pair[0]] == run[pair[1]]}
-    expected: set[frozenset[int]] = set()
+    bonds = zip(atoms.bonds.tolist(), atoms.bond_orders.tolist(), strict=True)
+    inner = {frozenset(pair): order for pair, order in bonds if run[pair[0]] == run[pair[1]]}
+    expected: dict[frozenset[int], int] = {}
     for rows in np.split(np.arange(len(run)), np.flatnonzero(np.diff(run)) + 1):
         row_of = {newer_name(str(atoms.atom_name[row])): int(row) for row in rows}
-        for first, second in component_bonds(str(atoms.residue_name[rows[0]])):
-            if first in row_of and second in row_of:
-                expected.add(frozenset((row_of[first], row_of[second])))
+        for pair, order in component_bonds(str(atoms.residue_name[rows[0]])).items():
+            if pair <= row_of.keys():
+                expected[frozenset(row_of[name] for name in pair)] = order
     light = set(np.flatnonzero(np.isin(atoms.element, ["H", "D"])).tolist())  # whose names differ among programs
-    assert {pair for pair in inner ^ expected if not pair & light} == set()
+    assert {pair for pair in inner.keys() ^ expected.keys() if not pair & light} == set()
+    both, residues = inner.keys() & expected.keys(), standard_residues()
+    other = {pair for pair in both if inner[pair] != expected[pair]}
+    assert {pair for pair in other if str(atoms.residue_name[min(pair)]) in residues} == set()
 
 
 def test_chains_are_linked_and_disulfides_closed() -> None:
@@ -192,6 +195,19 @@ def test_names_go_before_distances_in_standard_residues() -> None:
     assert pairs(bonds_of(residue("CA XY", 0, 1.5))) == []
     assert pairs(bonds_of(residue("C1* O4*", 0, 1.4, name="DA"))) == [(0, 1)]  # as named before 2007
     assert pairs(bonds_of(residue("CA CB", 0, 2.3), "distance")) == []
+
+
+@pytest.mark.parametrize(
+    ("connections", "orders"),
+    [((), [2, 1]), (("CONECT    3    4",), [2, 1]), (("CONECT    3    4", "CONECT    2    3    3"), [1, 2])],
+)
+def test_orders_are_the_files_if_it_has_any_else_the_residues(connections: tuple[str, ...], orders: list[int]) -> None:
+    names = ["N", "CA", "C", "O", "OXT"]
+    lines = [hetatm(k + 1, name[0], 1.4 * k, "GLY") for k, name in enumerate(names)]
+    named = [line[:12] + f" {name:<3}" + line[16:] for line, name in zip(lines, names, strict=True)]
+    glycine = pdb(*named, *connections)
+    order = dict(zip(pairs(bonds_of(glycine)), bonds_of(glycine).order.tolist(), strict=True))
+    assert [order[2, 3], order[1, 2]] == orders and len(order) == 4
 
 
 # ---- stated by files

@@ -203,8 +203,8 @@ def test_info_has_the_fields_of_the_contract(tmp_path: Path) -> None:
     path.write_text("0 0 0 1\n1.5 0 0 1\n3 0 0 2\n20 0 0 0.5\n", encoding="ascii")
     (told,) = json.loads(run("info", str(path), "--json").stdout)["results"]
     assert told == {
-        "file": str(path), "format": "xyzr", "model": 1, "models": 1, "title": "row", "atoms": 4,
-        "bonds": 0, "elements": {"X": 4}, "k": 4.0, "rho": 0.75, "max_neighbours": 2, "mean_neighbours": 1.0, "components": 2,
+        "file": str(path), "format": "xyzr", "model": 1, "models": 1, "title": "row", "atoms": 4, "bonds": 0,
+        "elements": {"X": 4}, "k": 4.0, "rho": 0.75, "max_neighbours": 2, "mean_neighbours": 1.0, "components": 2,
     }  # fmt: skip
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from molviz import toml
 from molviz.arrays import Bools, Floats, Ints, Strings
 
+SOURCES = ("file", "distance", "none")  # of the bonds that are drawn
 AROMATIC = 1.5  # the order of a bond that the file calls aromatic
 _ORDER_OF_SIGN = {"-": 1.0, "=": 2.0}  # of residue_bonds.toml
 Template = tuple[tuple[str, str, float], ...]  # the two names and the order of every bond of a residue
