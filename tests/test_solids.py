@@ -271,6 +271,14 @@ def test_what_is_hidden_is_not_drawn_and_does_not_turn_the_picture() -> None:
         molviz.draw(CAFFEINE, rep="hide")
 
 
+def test_a_scene_has_balls_sticks_and_their_atoms() -> None:
+    scene = molviz.Scene(CAFFEINE, rep=["sticks", "hydrogens=hide"], stick_radius=0.3)
+    assert scene.sticks.radius.tolist() == [0.3] * 15 and scene.spheres.radius.tolist() == [0.3] * 14
+    assert len(scene.molecule) == 24 and (scene.molecule.element[scene.atom] != "H").all()
+    shown = molviz.Scene(CAFFEINE, no_hydrogens=True)
+    assert np.array_equal(scene.view.rotation, shown.view.rotation)
+
+
 def test_bonds_of_the_file_by_distance_or_none() -> None:
     counts = {
         source: len(solids_for(loaded(CAFFEINE), SolidOptions((("all", "sticks"),), source)).sticks.radius)
