@@ -11,10 +11,10 @@ from molviz.cli import main
 from molviz.errors import InputError
 from molviz.geometry.solids import LONGEST, MOST_STICKS, BallsAndSticks, solids_of
 from molviz.model.bonds import Bonds
-from molviz.model.representations import BALL_AND_STICK, HIDE, REPRESENTATIONS, SPACEFILL, STICKS, USUAL, Sizes
+from molviz.model.representations import BALL_AND_STICK, REPRESENTATIONS, SPACEFILL, STICKS, USUAL, Sizes
 from molviz.model.spheres import Spheres
 from molviz.pipeline.inputs import loaded_from
-from molviz.pipeline.solids import SolidOptions, parse_representations, representations_of, solids_for
+from molviz.pipeline.solids import SolidOptions, parse_representations, shown, solids_for
 from molviz.pipeline.subject import reading_of
 from molviz.pipeline.values import input_options_from
 from tests.test_door import SAMPLES
@@ -40,7 +40,7 @@ def test_a_bond_of_each_representation() -> None:
     far = [[0, 0, 0], [3, 0, 0]]
     one = solids(far, [[0, 1]])
     assert one.balls.radius.tolist() == [0.425, 0.425] and one.sticks.radius.tolist() == [0.15]
-    assert not one.sticks.offset.any() and one.atom.tolist() == [0, 1] and one.notes == ()
+    assert not one.sticks.offset.any() and one.notes == ()
     alone = solids(far, [[0, 1]], STICKS)
     assert alone.balls.radius.tolist() == [0.2, 0.2] and alone.sticks.radius.tolist() == [0.2]
     assert len(solids(far, [[0, 1]], SPACEFILL).sticks.radius) == 0
@@ -53,12 +53,6 @@ def test_a_bond_of_two_representations_has_the_thinner_stick() -> None:
     far = [[0, 0, 0], [3, 0, 0]]
     assert solids(far, [[0, 1]], [BALL_AND_STICK, STICKS]).sticks.radius.tolist() == [0.15]
     assert solids(far, [[0, 1]], [SPACEFILL, STICKS]).sticks.radius.tolist() == [0.2]
-
-
-def test_hidden_atoms_have_neither_ball_nor_stick() -> None:
-    chain = solids([[0, 0, 0], [1.5, 0, 0], [3, 0, 0]], [[0, 1], [1, 2]], [HIDE, STICKS, STICKS])
-    assert chain.atom.tolist() == [1, 2] and len(chain.balls.radius) == 2
-    assert (chain.sticks.first.tolist(), chain.sticks.second.tolist()) == ([0], [1])
 
 
 def test_sticks_of_which_nothing_is_seen_are_left_out() -> None:
@@ -227,7 +221,7 @@ def test_outside_their_balls_sticks_meet_nothing(seed: int, count: int, scale: f
 @pytest.mark.parametrize("names", [BALL_AND_STICK, STICKS])
 @pytest.mark.parametrize("sample", ["caffeine.xyz", "c60.xyz", "1a8o.pdb"])
 def test_molecules_need_no_thinner_sticks(sample: str, names: str) -> None:
-    made = solids_for(loaded(str(SAMPLES / sample)), SolidOptions((("all", names),)))
+    made = drawn(str(SAMPLES / sample), names)
     assert made.notes == () and len(np.unique(made.sticks.radius)) <= 2
     if names == STICKS:
         assert np.unique(made.balls.radius).tolist() == [0.2]
@@ -236,6 +230,11 @@ def test_molecules_need_no_thinner_sticks(sample: str, names: str) -> None:
 
 
 # ---- options
+
+
+def drawn(path: str, names: str, bonds: str = "file") -> BallsAndSticks:
+    options = SolidOptions((("all", names),), bonds)
+    return solids_for(*shown(loaded(path), options), options)
 
 
 def loaded(path: str, **options: object) -> object:
@@ -257,33 +256,33 @@ def test_representations_as_they_are_written(value: object, expected: list[tuple
 
 
 def test_the_last_representation_that_applies_wins() -> None:
-    options = SolidOptions((("element C", "hide"), ("all", "sticks"), ("element O", "spacefill")))
-    molecule = molviz.read(CAFFEINE).models[0]
-    expected = np.where(molecule.element == "O", "spacefill", "sticks")
-    assert representations_of(loaded(CAFFEINE), options).tolist() == expected.tolist()
+    pairs = (("element C O", "hide"), ("all", "sticks"), ("element O", "spacefill"), ("element C", "hide"))
+    options = SolidOptions(pairs)
+    element = molviz.read(CAFFEINE).models[0].element
+    expected = np.where(element == "O", "spacefill", "sticks")[element != "C"]
+    left, names = shown(loaded(CAFFEINE), options)
+    assert names.tolist() == expected.tolist() and len(left.molecule) == len(left.spheres.radius) == 16
 
 
 def test_what_is_hidden_is_not_drawn_and_does_not_turn_the_picture() -> None:
-    some = molviz.draw(CAFFEINE, select="not hydrogens", orient="principal").svg()
-    hidden = molviz.draw(CAFFEINE, rep="hydrogens=hide")
-    assert hidden.svg() == some and hidden.atoms_drawn == 14
+    more = {"legend": True, "label": "element O", "color_by": "exposure"}
+    hidden = molviz.draw(CAFFEINE, rep="hydrogens=hide", **more)
+    assert hidden.svg() == molviz.draw(CAFFEINE, no_hydrogens=True, **more).svg() and hidden.atoms_drawn == 14
+    assert molviz.draw(CAFFEINE, rep="within 1.2 of element H=hide", bonds="none").atoms_drawn == 10
     with pytest.raises(InputError, match="all atoms are hidden"):
         molviz.draw(CAFFEINE, rep="hide")
 
 
-def test_a_scene_has_balls_sticks_and_their_atoms() -> None:
+def test_a_scene_has_balls_and_sticks() -> None:
     scene = molviz.Scene(CAFFEINE, rep=["sticks", "hydrogens=hide"], stick_radius=0.3)
     assert scene.sticks.radius.tolist() == [0.3] * 15 and scene.spheres.radius.tolist() == [0.3] * 14
-    assert len(scene.molecule) == 24 and (scene.molecule.element[scene.atom] != "H").all()
+    assert len(scene.molecule) == 14 and (scene.molecule.element != "H").all()
     shown = molviz.Scene(CAFFEINE, no_hydrogens=True)
     assert np.array_equal(scene.view.rotation, shown.view.rotation)
 
 
 def test_bonds_of_the_file_by_distance_or_none() -> None:
-    counts = {
-        source: len(solids_for(loaded(CAFFEINE), SolidOptions((("all", "sticks"),), source)).sticks.radius)
-        for source in ("file", "distance", "none")
-    }
+    counts = {source: len(drawn(CAFFEINE, "sticks", source).sticks.radius) for source in ("file", "distance", "none")}
     assert counts == {"file": 25, "distance": 25, "none": 0}
 
 

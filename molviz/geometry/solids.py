@@ -15,7 +15,7 @@ from molviz.arrays import Floats, Ints, Strings
 from molviz.geometry.rows import expand
 from molviz.geometry.stick_rules import Rods, lengths, settled
 from molviz.model.bonds import AROMATIC, Bonds
-from molviz.model.representations import BALL_AND_STICK, HIDE, STICKS, USUAL, Sizes
+from molviz.model.representations import BALL_AND_STICK, STICKS, USUAL, Sizes
 from molviz.model.spheres import Spheres
 from molviz.model.sticks import Sticks
 from molviz.vectors import dot
@@ -24,36 +24,33 @@ LONGEST = 6.0  # ångström, above the bond of Cs2: a longer one joins atoms in 
 MOST_STICKS = 60  # of one atom; one of more is no atom, and looking at all pairs of its sticks takes a while
 FAINT = 1e-12  # weight of the direction that a bond's sticks lie in where no neighbour says one
 # Sticks of a bond of each order, as parts of the radius of a single one: radius, and offset from the line of centres.
-# Between two parallel sticks is a gap that can be seen, and all are about as wide as a single one and a half.
+# Between two of them is a gap that can be seen, and together they are at most one and a half times as wide.
 _PARALLEL = {
     1.0: ((1.0, 0.0),),
-    AROMATIC: ((0.5, -0.7), (0.25, 0.7)),  # the thinner one inside the ring
-    2.0: ((0.5, -0.7), (0.5, 0.7)),
-    3.0: ((0.4, -1.1), (0.4, 0.0), (0.4, 1.1)),
+    AROMATIC: ((0.5, -0.7), (0.25, 0.9)),  # the thinner one inside the ring
+    2.0: ((0.4, -0.8), (0.4, 0.8)),
+    3.0: ((0.33, -1.1), (0.33, 0.0), (0.33, 1.1)),
 }
 
 
 class BallsAndSticks(NamedTuple):
-    """The balls and sticks of a drawing."""
+    """What stands for n atoms in a drawing."""
 
-    balls: Spheres  # (b,)
-    sticks: Sticks  # between balls
-    atom: Ints  # (b,) row of the molecule
+    balls: Spheres  # (n,)
+    sticks: Sticks
     notes: tuple[str, ...]  # what is odd
 
 
 def solids_of(spheres: Spheres, representation: Strings, bonds: Bonds, sizes: Sizes = USUAL) -> BallsAndSticks:
-    """Return balls and sticks of n atoms; ``spheres`` (n,) are the space-filling ones, ``representation`` (n,) names.
+    """Return balls and sticks of n atoms.
 
-    Atoms that are hidden have neither ball nor bonds. Sticks of which nothing would be seen, because the balls at
-    their ends meet around them, are left out.
+    ``spheres`` (n,) are the space-filling ones, ``representation`` (n,) the names of any representations but ``hide``.
+    Sticks of which nothing would be seen, because the balls at their ends meet around them, are left out.
     """
-    atom = np.flatnonzero(representation != HIDE)
-    shown, style = spheres.take(atom), representation[atom]
-    rods, notes = _rods(shown, style, bonds.take(atom, len(representation)), sizes)
-    radius, rods, more = settled(shown, _ball_radii(shown, style, sizes), rods)
-    balls = Spheres(shown.center, radius)
-    return BallsAndSticks(balls, _parallel_sticks(balls, rods), atom, notes + more)
+    rods, notes = _rods(spheres, representation, bonds, sizes)
+    radius, rods, more = settled(spheres, _ball_radii(spheres, representation, sizes), rods)
+    balls = Spheres(spheres.center, radius)
+    return BallsAndSticks(balls, _parallel_sticks(balls, rods), notes + more)
 
 
 def _ball_radii(spheres: Spheres, style: Strings, sizes: Sizes) -> Floats:

@@ -23,7 +23,7 @@ from molviz.picture.picture import Color, Picture
 from molviz.picture.style import load_style
 from molviz.pipeline.inputs import Loaded, refuse_unresolved
 from molviz.pipeline.outputs import encoded, refuse_inputs, save
-from molviz.pipeline.solids import SolidOptions, shown_spheres, solid_options_from, solids_for
+from molviz.pipeline.solids import SolidOptions, shown, solid_options_from, solids_for
 from molviz.pipeline.values import (
     Options,
     chosen,
@@ -213,7 +213,7 @@ def drawing_of(
     ``check`` verifies the visibility map and raises InternalError where an invariant does not hold. Raises InputError
     where the eye is not in front of all atoms.
     """
-    view = view_of(shown_spheres(loaded, request.solids), view_options)
+    view = view_of(shown(loaded, request.solids)[0].spheres, view_options)
     return drawings_of(loaded, request, [view], method, check)[0]
 
 
@@ -221,7 +221,8 @@ def drawings_of(
     loaded: Loaded, request: DrawRequest, views: Sequence[View], method: str = "visible", check: bool = False
 ) -> list[Drawing]:
     """Return one model drawn from each view; what no view changes is computed once. As ``drawing_of`` otherwise."""
-    solids = solids_for(loaded, request.solids)
+    loaded, representation = shown(loaded, request.solids)
+    solids = solids_for(loaded, representation, request.solids)
     refuse_unresolved(loaded._replace(spheres=solids.balls))
     scene = Scene(solids.balls, only=views[0] if len(views) == 1 else None)
     options = request.options.settled(entities_of(loaded.molecule), method == "painter")
@@ -252,16 +253,16 @@ def _seen_from(
     """The drawing of what is seen from one view."""
     seen: VisibilityMap | Pieces
     if method == "painter":
-        seen, ball = scene.pieces(view)
+        seen, atom = scene.pieces(view)
         visible, arcs = len(seen.order), len(seen.curve_arcs.curve)
     else:
-        seen, ball = scene.map(view)
+        seen, atom = scene.map(view)
         if check:
             check_map(seen, view)
         visible, arcs = int(np.sum(np.unique(seen.loops.face[~slivers(seen)]) != BACKGROUND)), len(seen.left)
     low, high = extent(solids.balls, view)
-    subject = replace(subject, atom=solids.atom[ball], low=low, high=high)
-    return Drawing(loaded.read, len(solids.atom), visible, arcs, loaded, options, view, seen, solids, subject)
+    subject = replace(subject, atom=atom, low=low, high=high)
+    return Drawing(loaded.read, len(loaded.molecule), visible, arcs, loaded, options, view, seen, solids, subject)
 
 
 def color_values(loaded: Loaded, scheme: str) -> Floats:

@@ -6,7 +6,7 @@ from typing import Any
 
 from molviz.arrays import Ints
 from molviz.pipeline.door import load_one, tell
-from molviz.pipeline.solids import shown_spheres, solid_options_from, solids_for
+from molviz.pipeline.solids import shown, solid_options_from, solids_for
 from molviz.pipeline.views import checked_view
 from molviz.visibility.map import VisibilityMap
 from molviz.visibility.painter import Pieces
@@ -17,9 +17,9 @@ from molviz.visibility.view import View, principal_axes
 class Scene:
     """The balls and sticks of anything that ``molviz.draw`` takes, for any number of views.
 
-    ``molecule`` is what the options left of ``x``; ``spheres`` are the balls that stand for its atoms in the rows
-    ``atom``, all of them unless some are hidden, and ``sticks`` join them; ``view`` is the one that ``molviz.draw``
-    begins with, along the shortest principal axis: ``scene.map(scene.view.rotated("y", 30))``.
+    ``molecule`` is what the options left of ``x``, ``spheres`` are the balls that stand for its atoms, row by row, and
+    ``sticks`` join them; ``view`` is the one that ``molviz.draw`` begins with, along the shortest principal axis:
+    ``scene.map(scene.view.rotated("y", 30))``.
     The options are those of ``molviz.draw``. Raises InputError for what cannot be used, and warns of what is odd.
     """
 
@@ -42,12 +42,12 @@ class Scene:
         probe: float = 0.0,
     ) -> None:
         options = locals()
-        wanted, loaded = solid_options_from(options), load_one(x, options)
-        solids = solids_for(loaded, wanted)
+        wanted = solid_options_from(options)
+        loaded, representation = shown(load_one(x, options), wanted)
+        solids = solids_for(loaded, representation, wanted)
         tell((*loaded.warnings, *solids.notes), stacklevel=3)
-        self.molecule, self.atom = loaded.molecule, solids.atom
-        self.spheres, self.sticks = solids.balls, solids.sticks
-        self.view = principal_axes(shown_spheres(loaded, wanted))
+        self.molecule, self.spheres, self.sticks = loaded.molecule, solids.balls, solids.sticks
+        self.view = principal_axes(loaded.spheres)
         self._scene = SphereScene(self.spheres)
 
     def __repr__(self) -> str:

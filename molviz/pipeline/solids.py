@@ -20,7 +20,6 @@ from molviz.model.representations import (
     Sizes,
 )
 from molviz.model.selection import check_selection, select
-from molviz.model.spheres import Spheres
 from molviz.model.sticks import NO_STICKS
 from molviz.pipeline.inputs import Loaded
 from molviz.pipeline.values import Options, chosen, given, parse_positive, parse_text
@@ -67,26 +66,26 @@ def _representation(value: Any) -> tuple[str, str]:
     return selection, name
 
 
-def representations_of(loaded: Loaded, options: SolidOptions) -> Strings:
-    """Return the representation (n,) of every atom; raises InputError where all are hidden."""
+def shown(loaded: Loaded, options: SolidOptions) -> tuple[Loaded, Strings]:
+    """Return a model less its hidden atoms, and the representation (n,) of each of the others.
+
+    Raises InputError where all are hidden.
+    """
     names = np.full(len(loaded.molecule), SPACEFILL, dtype=f"<U{max(map(len, REPRESENTATIONS))}")
     for selection, name in options.representations:
         names[select(loaded.molecule, selection)] = name
-    if (names == HIDE).all():
+    rows = np.flatnonzero(names != HIDE)
+    if len(rows) == len(names):
+        return loaded, names
+    if not len(rows):
         raise InputError("all atoms are hidden; expected one at least to draw", loaded.source)
-    return names
+    spheres, bare = loaded.spheres.take(rows), loaded.bare.take(rows)
+    return loaded._replace(molecule=loaded.molecule.take(rows), spheres=spheres, bare=bare), names[rows]
 
 
-def shown_spheres(loaded: Loaded, options: SolidOptions) -> Spheres:
-    """Return the space-filling spheres of the atoms that are not hidden: they say how a picture is turned."""
-    return loaded.spheres.take(np.flatnonzero(representations_of(loaded, options) != HIDE))
-
-
-def solids_for(loaded: Loaded, options: SolidOptions) -> BallsAndSticks:
-    """Return the balls and sticks of a model; bonds are looked for where there are sticks alone."""
-    names = representations_of(loaded, options)
-    if not np.isin(names, (BALL_AND_STICK, STICKS)).any():
-        atom = np.flatnonzero(names != HIDE)
-        return BallsAndSticks(loaded.spheres.take(atom), NO_STICKS, atom, ())
-    solids = solids_of(loaded.spheres, names, bonds_of(loaded.molecule, options.bonds), options.sizes)
+def solids_for(loaded: Loaded, representation: Strings, options: SolidOptions) -> BallsAndSticks:
+    """Return what stands for the atoms of a model without hidden ones; bonds are looked for where any are drawn."""
+    if not np.isin(representation, (BALL_AND_STICK, STICKS)).any():
+        return BallsAndSticks(loaded.spheres, NO_STICKS, ())
+    solids = solids_of(loaded.spheres, representation, bonds_of(loaded.molecule, options.bonds), options.sizes)
     return solids._replace(notes=tuple(f"{loaded.source}: {note}" for note in solids.notes))
