@@ -216,6 +216,62 @@ def test_deuterium_of_rdkit_is_kept_apart() -> None:
         assert reading_of(mol).models[0].element.tolist() == ["D", "O", "H"]
 
 
+# ---- bonds
+
+
+def carbonyl_far_apart() -> Molecule:
+    """Three atoms too far apart for bonds by distance."""
+    return Molecule.of("made", [[0, 0, 0], [4, 0, 0], [0, 4, 0]], ["C", "O", "C"])
+
+
+def bonded_rdkit() -> object:
+    mol = Chem.RWMol(as_rdkit(carbonyl_far_apart()))
+    mol.AddBond(0, 1, Chem.BondType.DOUBLE)
+    mol.AddBond(2, 0, Chem.BondType.SINGLE)
+    mol.AddBond(1, 2, Chem.BondType.HYDROGEN)
+    return mol.GetMol()
+
+
+def bonded_biotite() -> object:
+    array = as_biotite(carbonyl_far_apart())
+    array.bonds = biotite.structure.BondList(3, np.array([[0, 1, 2], [2, 0, 1]]))
+    return array
+
+
+def bonded_universe() -> MDAnalysis.Universe:
+    universe = as_universe(carbonyl_far_apart())
+    universe.add_bonds([(0, 1), (2, 0)], order=["2", None])
+    return universe
+
+
+@pytest.mark.parametrize("maker", [bonded_rdkit, bonded_biotite, bonded_universe])
+def test_bonds_and_orders_of_an_object(maker: Callable[[], object]) -> None:
+    molecule = reading_of(maker()).models[0]
+    assert molecule.bonds.tolist() == [[0, 1], [0, 2]] and molecule.bond_orders.tolist() == [2, 1]
+
+
+def test_bonds_that_leave_a_group_are_left_out() -> None:
+    assert reading_of(bonded_universe().atoms[[2, 0]]).models[0].bonds.tolist() == [[0, 1]]
+
+
+def test_connections_of_a_structure_are_bonds() -> None:
+    structure = as_structure(carbonyl_far_apart())
+    names = [f"{symbol}{number}" for number, symbol in enumerate("COC")]
+    for kind, asu, other in (("Covale", "Any", 1), ("Hydrog", "Same", 2), ("MetalC", "Different", 2)):
+        connection = gemmi.Connection()
+        connection.type, connection.asu = getattr(gemmi.ConnectionType, kind), getattr(gemmi.Asu, asu)
+        seqid = structure[0]["A"][0].seqid
+        connection.partner1 = gemmi.AtomAddress("A", seqid, "LIG", names[0])
+        connection.partner2 = gemmi.AtomAddress("A", seqid, "LIG", names[other])
+        structure.connections.append(connection)
+    assert reading_of(structure).models[0].bonds.tolist() == [[0, 1]]
+
+
+def test_objects_without_bonds_are_bonded_by_distance() -> None:
+    for maker in MAKERS.values():
+        assert len(reading_of(maker(caffeine())).models[0].bonds) == 25
+
+
 # ---- what has no coordinates, and what nobody knows
 
 

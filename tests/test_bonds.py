@@ -120,10 +120,11 @@ def test_no_bonds_and_unknown_sources() -> None:
 # ---- residues
 
 
-def component_bonds(name: str) -> set[frozenset[str]]:
-    """Return the bonds of the Chemical Component Dictionary."""
+def component_bonds(name: str) -> dict[frozenset[str], int]:
+    """Return the bonds of the Chemical Component Dictionary, and their orders as it writes them."""
     info = pytest.importorskip("biotite.structure.info")
-    return {frozenset(bond) for bond in info.bonds_in_residue(name)}
+    order_of = {"SINGLE": 1, "AROMATIC_SINGLE": 1, "DOUBLE": 2, "AROMATIC_DOUBLE": 2, "TRIPLE": 3}
+    return {frozenset(bond): order_of[kind.name] for bond, kind in info.bonds_in_residue(name).items()}
 
 
 def heavy(name: str) -> set[str]:
@@ -135,8 +136,9 @@ def heavy(name: str) -> set[str]:
 @pytest.mark.parametrize("name", sorted(set(standard_residues()) - FORCE_FIELD_NAMES))
 def test_templates_are_the_chemical_components(name: str) -> None:
     atoms = heavy(name)
-    template = {frozenset((first, second)) for first, second, _ in standard_residues()[name]}
-    assert {bond for bond in template if bond <= atoms} == {bond for bond in component_bonds(name) if bond <= atoms}
+    template = {frozenset((first, second)): order for first, second, order in standard_residues()[name]}
+    expected = {bond: order for bond, order in component_bonds(name).items() if bond <= atoms}
+    assert {bond: order for bond, order in template.items() if bond <= atoms} == expected
 
 
 def test_every_residue_of_a_polymer_has_a_template() -> None:
@@ -153,16 +155,19 @@ def newer_name(atom: str) -> str:
 def test_residues_of_samples_are_bonded_as_the_components_say(sample: str) -> None:
     atoms = read(SAMPLES / sample).models[0]
     run = run_of_atom(atoms.chain, atoms.residue, atoms.residue_name)
-    bonds = bonds_of(atoms).atoms
-    inner = {frozenset(pair) for pair in bonds.tolist() if run[pair[0]] == run[pair[1]]}
-    expected: set[frozenset[int]] = set()
+    bonds = zip(atoms.bonds.tolist(), atoms.bond_orders.tolist(), strict=True)
+    inner = {frozenset(pair): order for pair, order in bonds if run[pair[0]] == run[pair[1]]}
+    expected: dict[frozenset[int], int] = {}
     for rows in np.split(np.arange(len(run)), np.flatnonzero(np.diff(run)) + 1):
         row_of = {newer_name(str(atoms.atom_name[row])): int(row) for row in rows}
-        for first, second in component_bonds(str(atoms.residue_name[rows[0]])):
-            if first in row_of and second in row_of:
-                expected.add(frozenset((row_of[first], row_of[second])))
+        for pair, order in component_bonds(str(atoms.residue_name[rows[0]])).items():
+            if pair <= row_of.keys():
+                expected[frozenset(row_of[name] for name in pair)] = order
     light = set(np.flatnonzero(np.isin(atoms.element, ["H", "D"])).tolist())  # whose names differ among programs
-    assert {pair for pair in inner ^ expected if not pair & light} == set()
+    assert {pair for pair in inner.keys() ^ expected.keys() if not pair & light} == set()
+    both, residues = inner.keys() & expected.keys(), standard_residues()
+    other = {pair for pair in both if inner[pair] != expected[pair]}
+    assert {pair for pair in other if str(atoms.residue_name[min(pair)]) in residues} == set()
 
 
 def test_chains_are_linked_and_disulfides_closed() -> None:
@@ -190,6 +195,19 @@ def test_names_go_before_distances_in_standard_residues() -> None:
     assert pairs(bonds_of(residue("CA XY", 0, 1.5))) == []
     assert pairs(bonds_of(residue("C1* O4*", 0, 1.4, name="DA"))) == [(0, 1)]  # as named before 2007
     assert pairs(bonds_of(residue("CA CB", 0, 2.3), "distance")) == []
+
+
+@pytest.mark.parametrize(
+    ("connections", "orders"),
+    [((), [2, 1]), (("CONECT    3    4",), [2, 1]), (("CONECT    3    4", "CONECT    2    3    3"), [1, 2])],
+)
+def test_orders_are_the_files_if_it_has_any_else_the_residues(connections: tuple[str, ...], orders: list[int]) -> None:
+    names = ["N", "CA", "C", "O", "OXT"]
+    lines = [hetatm(k + 1, name[0], 1.4 * k, "GLY") for k, name in enumerate(names)]
+    named = [line[:12] + f" {name:<3}" + line[16:] for line, name in zip(lines, names, strict=True)]
+    glycine = pdb(*named, *connections)
+    order = dict(zip(pairs(bonds_of(glycine)), bonds_of(glycine).order.tolist(), strict=True))
+    assert [order[2, 3], order[1, 2]] == orders and len(order) == 4
 
 
 # ---- stated by files
@@ -229,6 +247,17 @@ def test_alternate_locations_make_no_bonds() -> None:
     atoms[2] = atoms[2].replace("HETATM    2", "HETATM    3")
     kept = pdb(*atoms, "CONECT    1    2    3", "CONECT    2    3")
     assert len(kept) == 2 and pairs(bonds_of(kept)) == [(0, 1)]
+
+
+def test_links_and_disulfides() -> None:
+    link = "LINK         C1  LIG A   1                 O2  LIG A   2A  {} {}  9.00"
+    atoms = [hetatm(1, "C", 0), hetatm(2, "O", 9, number=2).replace("   2    ", "   2A   ")]
+    for here, there, expected in (("1555", "1555", [(0, 1)]), ("1555", "2555", []), ("    ", "    ", [(0, 1)])):
+        assert pairs(bonds_of(pdb(link.format("  " + here, "  " + there), *atoms))) == expected
+    cysteines = [hetatm(1, "S", 0, "CYS", 3), hetatm(2, "S", 9, "CYS", 40)]
+    cysteines = [line.replace("S1 ", "SG ").replace("S2 ", "SG ") for line in cysteines]
+    assert pairs(bonds_of(pdb("SSBOND   1 CYS A    3    CYS A   40", *cysteines))) == [(0, 1)]
+    assert pairs(bonds_of(pdb("SSBOND   1 CYS A    3    CYS A   41", *cysteines))) == []
 
 
 CIF = """data_x
@@ -274,6 +303,16 @@ def test_connections_and_components_of_mmcif() -> None:
     bonds = bonds_of(atoms)
     assert pairs(bonds) == [(0, 1), (0, 2), (2, 3)] and bonds.order.tolist() == [3, 2, 3]
     assert pairs(bonds_of(atoms.take(np.array([2, 0])))) == [(0, 1)]
+
+
+def test_a_molecule_has_its_bonds_when_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[Molecule] = []
+    finder = "molviz.geometry.bonds.bonds_of"
+    monkeypatch.setattr(finder, lambda molecule: calls.append(molecule) or bonds_of(molecule))
+    carbonyl = pdb(hetatm(1, "C", 0), hetatm(2, "O", 1.2), hetatm(3, "C", -1.5), "CONECT    1    2    2    3")
+    assert not calls
+    assert carbonyl.bonds.tolist() == [[0, 1], [0, 2]] and carbonyl.bond_orders.tolist() == [2, 1]
+    assert carbonyl.take(np.array([2, 0])).bonds.tolist() == [[0, 1]] and len(calls) == 2
 
 
 def test_copies_of_an_assembly_keep_their_bonds() -> None:

@@ -194,7 +194,7 @@ def test_info_tells_the_hard_sphere_model() -> None:
     told = json.loads(result.stdout)["results"][0]
     assert told["atoms"] == 24 and told["elements"] == {"C": 8, "H": 10, "N": 4, "O": 2}
     assert told["k"] == pytest.approx(1.7 / 1.2)
-    assert 0.4 < told["rho"] < 1 and told["max_neighbours"] >= told["mean_neighbours"] > 4
+    assert told["bonds"] == 25 and 0.4 < told["rho"] < 1 and told["max_neighbours"] >= told["mean_neighbours"] > 4
     assert told["components"] == 1
 
 
@@ -203,7 +203,7 @@ def test_info_has_the_fields_of_the_contract(tmp_path: Path) -> None:
     path.write_text("0 0 0 1\n1.5 0 0 1\n3 0 0 2\n20 0 0 0.5\n", encoding="ascii")
     (told,) = json.loads(run("info", str(path), "--json").stdout)["results"]
     assert told == {
-        "file": str(path), "format": "xyzr", "model": 1, "models": 1, "title": "row", "atoms": 4,
+        "file": str(path), "format": "xyzr", "model": 1, "models": 1, "title": "row", "atoms": 4, "bonds": 0,
         "elements": {"X": 4}, "k": 4.0, "rho": 0.75, "max_neighbours": 2, "mean_neighbours": 1.0, "components": 2,
     }  # fmt: skip
 

@@ -8,11 +8,13 @@ import numpy as np
 from molviz.adapters.plain import SOURCE, plain_models
 from molviz.arrays import Strings
 from molviz.errors import InputError
+from molviz.model.bonds import AROMATIC, NO_BONDS, Bonds
 from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_label
 from molviz.model.molecule import Molecule
 from molviz.readers.atoms import Models
 
 COLUMNS = {"names": "atom_name", "resnames": "residue_name"}
+_ORDERS = {"2": 2.0, "2.0": 2.0, "3": 3.0, "3.0": 3.0, "1.5": AROMATIC, "ar": AROMATIC}  # numbers, or words of MOL2
 
 
 def models_of_universe(universe: Any) -> Models:
@@ -32,7 +34,7 @@ def models_of_group(group: Any) -> Models:
     return plain_models(
         Molecule.of(
             PurePath(str(group.universe.filename or "")).stem, position, _elements(group),
-            residue=_residues(group), chain=_chains(group), **columns,
+            residue=_residues(group), chain=_chains(group), stated_bonds=_bonds(group), **columns,
         ),
     )  # fmt: skip
 
@@ -40,6 +42,18 @@ def models_of_group(group: Any) -> Models:
 def _column(group: Any, name: str) -> Any:
     column = getattr(group, name, None)
     return np.full(len(group), "") if column is None else np.asarray(column)
+
+
+def _bonds(group: Any) -> Bonds:
+    """The bonds of the topology among the atoms of the group, where it has any; of order 1 where it has no orders."""
+    if not len(getattr(group, "bonds", ())):
+        return NO_BONDS
+    bonds = group.bonds
+    row = np.full(len(group.universe.atoms), -1)
+    row[group.indices] = np.arange(len(group))
+    pairs, order = row[bonds.indices], np.array([_ORDERS.get(str(bond.order), 1.0) for bond in bonds])
+    inside = (pairs >= 0).all(axis=1)
+    return Bonds.of(pairs[inside], order[inside])
 
 
 def _elements(group: Any) -> Strings:

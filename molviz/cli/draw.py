@@ -12,9 +12,20 @@ import click
 
 from molviz.cli.batch import for_each
 from molviz.cli.main import TYPED
-from molviz.cli.options import Parsed, applied, eye_options, input_options, load_and_warn, page_options, shared, warn
+from molviz.cli.options import (
+    POSITIVE,
+    Parsed,
+    applied,
+    eye_options,
+    input_options,
+    load_and_warn,
+    page_options,
+    shared,
+    warn,
+)
 from molviz.cli.progress import Progress
 from molviz.cli.telling import say, tell_json
+from molviz.model.representations import REPRESENTATIONS
 from molviz.picture.palette import PALETTES
 from molviz.picture.style import STYLES
 from molviz.pipeline.draw import Drawing, DrawRequest, draw_request_from, suffixes
@@ -37,6 +48,10 @@ output_options = applied(
 drawing_options = applied(
     shared("method", show_default=True),
     shared("check", help="Verify the invariants of the visibility map first."),
+    shared("rep", multiple=True, metavar="[SELECTION=]NAME", help=f"{', '.join(REPRESENTATIONS)}; repeatable."),
+    shared("bonds", show_default=True, help="Bonds of the file and, where it has none, by distance."),
+    shared("ball_scale", type=POSITIVE, show_default=True, metavar="X", help="Balls of ball-and-stick, in radii."),
+    shared("stick_radius", type=POSITIVE, metavar="R", help="In Å (default: 0.15, of sticks alone 0.2)."),
     shared("style", show_default=True, metavar="NAME|FILE.toml", help=f"auto, {', '.join(STYLES)}, or a file."),
     shared("color_by", show_default=True, help="What colours mean; auto: entities of polymers, else elements."),
     shared("color", multiple=True, metavar="SELECTION=COLOR", help="Over any scheme; repeatable, the last one wins."),
@@ -77,6 +92,7 @@ def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
       molviz draw caffeine.xyz -o caffeine.svg
       molviz draw 4hhb.pdb --color 'resn HEM=crimson' --label 'resn HEM' -o 4hhb.ps
       molviz draw *.cif -o 'pictures/{stem}.pdf'
+      molviz draw 1hpv.pdb --rep 'resn 478=sticks' -o pocket.svg
       molviz draw 4hhb.pdb --turntable 36 -o spin.svg
       molviz draw nmr.cif --model all -o 'frames/{n}.svg'
     """

@@ -75,9 +75,8 @@ def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
         raise click.UsageError(f"no fill {options['fill']!r}; expected flat or none")
     if sum([bool(inputs), options["count"] is not None, options["text"] is not None]) != 1:
         raise click.UsageError("nothing to draw, or two things; expected INPUT, --random or --text")
-    in_sets = options["turntable"] is not None or options["stereo"] is not None
-    if in_sets and (not inputs or options["kind"] == "discs"):
-        raise click.UsageError("discs lie flat; expected --turntable and --stereo with fused spheres only")
+    if not inputs or options["kind"] == "discs":
+        _refuse_solid(options)
     if options["style"] == "auto":
         options["style"] = "flat"
     if not inputs:
@@ -88,6 +87,13 @@ def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
         raise click.UsageError("--json tells the statistics of discs; expected --as discs, --random or --text")
     else:
         run_drawings(inputs, options)
+
+
+def _refuse_solid(options: dict[str, Any]) -> None:
+    """Raise UsageError for options that discs, which lie flat, have no meaning for."""
+    for name in ("turntable", "stereo", "rep"):
+        if options[name]:
+            raise click.UsageError(f"discs lie flat; expected --{name} with fused spheres only")
 
 
 def _molecules_as_discs(inputs: tuple[str, ...], options: dict[str, Any]) -> None:

@@ -47,6 +47,7 @@ def _as_text(result: dict[str, Any]) -> str:
     rows = [
         (result["file"], f"{result['format']}, model {result['model']} of {result['models']}: {result['title']}"),
         ("atoms", f"{result['atoms']} ({elements})"),
+        ("bonds", str(result["bonds"])),
         ("k", f"{result['k']:.3f}"),
         ("rho", rho),
         ("intersecting spheres", f"{result['max_neighbours']} at most, {result['mean_neighbours']:.2f} on average"),

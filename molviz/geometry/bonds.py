@@ -12,14 +12,21 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints, Strings
 from molviz.errors import InputError
 from molviz.geometry.grid import intersecting_pairs
-from molviz.model.bonds import NO_BONDS, Bonds, bonds_in_residues, joined_lists, run_of_atom, standard_residues
+from molviz.model.bonds import (
+    NO_BONDS,
+    SOURCES,
+    Bonds,
+    bonds_in_residues,
+    joined_lists,
+    run_of_atom,
+    standard_residues,
+)
 from molviz.model.entities import is_metal
 from molviz.model.molecule import Molecule
 from molviz.model.radii import load_table
 from molviz.model.selection import is_hydrogen, is_water
 from molviz.model.spheres import Spheres
 
-SOURCES = ("file", "distance", "none")
 TOLERANCE = 0.45  # ångström above the sum of covalent radii
 CLASH = 0.5  # of this sum: closer atoms overlap by mistake; true bonds are above 0.65, badly refined ones above this
 TORN = 2.5  # of this sum: a longer bond of a residue joins parts that stand in different cells of a crystal
@@ -113,7 +120,10 @@ def _hydrogens(contacts: Contacts, hydrogen: Bools) -> Contacts:
 
 
 def _with_residues(molecule: Molecule, contacts: Contacts, radius: Floats) -> Bonds:
-    """Return what the file states, what residues have, and the contacts that neither of these rules out."""
+    """Return what the file states, what residues have, and the contacts that neither of these rules out.
+
+    Orders are the file's if it states any, else the residues'.
+    """
     name = _bare_names(molecule)
     run = run_of_atom(molecule.chain, molecule.residue, molecule.residue_name)
     residues = bonds_in_residues(run, molecule.residue_name, name, standard_residues())
@@ -124,10 +134,12 @@ def _with_residues(molecule: Molecule, contacts: Contacts, radius: Floats) -> Bo
     settled[is_metal(molecule)] = False
     first, second, _ = contacts
     free = ~(settled[first] & settled[second]) | _is_link(molecule, name, run, contacts)
-    whole = own.atoms[_length(molecule, own.atoms) < TORN * radius[own.atoms].sum(axis=1)]
+    whole = _length(molecule, own.atoms) < TORN * radius[own.atoms].sum(axis=1)
     found = np.column_stack([first[free], second[free]])
-    rest = np.concatenate([whole, found])
-    return joined_lists([stated, Bonds(rest, np.ones(len(rest)))])
+    lists = [stated, Bonds(own.atoms[whole], own.order[whole]), Bonds(found, np.ones(len(found)))]
+    if stated.order.max(initial=1.0) == 1.0:  # connections without orders: the residues know more
+        lists.insert(0, lists.pop(1))
+    return joined_lists(lists)
 
 
 def _bare_names(molecule: Molecule) -> Strings:

@@ -3,6 +3,7 @@
 The bonds of a molecule, from its file or from distances, are found by ``molviz.geometry.bonds``.
 """
 
+import re
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -13,7 +14,9 @@ import numpy as np
 from molviz import toml
 from molviz.arrays import Bools, Floats, Ints, Strings
 
+SOURCES = ("file", "distance", "none")  # of the bonds that are drawn
 AROMATIC = 1.5  # the order of a bond that the file calls aromatic
+_ORDER_OF_SIGN = {"-": 1.0, "=": 2.0}  # of residue_bonds.toml
 Template = tuple[tuple[str, str, float], ...]  # the two names and the order of every bond of a residue
 
 
@@ -131,7 +134,7 @@ def _instances(rows: Ints, run: Ints, column: Ints, atoms: Strings, template: Te
 
 @cache
 def standard_residues() -> Mapping[str, Template]:
-    """Return the heavy atoms' bonds of amino acids, nucleotides and heme, all of order 1 (``residue_bonds.toml``)."""
+    """Return the heavy atoms' bonds and orders of amino acids, nucleotides and heme (``residue_bonds.toml``)."""
     content = toml.loads(Path(__file__).with_name("residue_bonds.toml").read_text(encoding="utf-8"))
     return {
         name: _bonded_along(f"{content['parts'][kind]} {paths}")
@@ -142,6 +145,10 @@ def standard_residues() -> Mapping[str, Template]:
 
 
 def _bonded_along(paths: str) -> Template:
-    """Return the bonds along paths of atoms such as ``CA-CB-CG``."""
-    steps = [path.split("-") for path in paths.split()]
-    return tuple((first, second, 1.0) for path in steps for first, second in zip(path, path[1:], strict=False))
+    """Return the bonds along paths of atoms such as ``CA-CB-CG=OD1``."""
+    steps = [re.split("([-=])", path) for path in paths.split()]
+    return tuple(
+        (first, second, _ORDER_OF_SIGN[sign])
+        for words in steps
+        for first, sign, second in zip(words[::2], words[1::2], words[2::2], strict=False)
+    )

@@ -1,6 +1,7 @@
 """A molecule: named atoms in space, as a file or an object of another library described them."""
 
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,8 @@ class Molecule:
     are empty where the format has no residues. ``element`` is the symbol as usually written (``"Fe"``), ``"X"``
     where unknown; D is kept apart from H. ``radius`` is the file's own, NaN where it has none; ``molviz.model.radii``
     says when it is used. ``water`` is not stored: see ``molviz.model.selection``. ``row`` is the atom's row in the
-    model it was read from. ``stated_bonds`` are those that the file states; all bonds: ``molviz.geometry.bonds``.
+    model it was read from. ``stated_bonds`` are those that the file states; ``bonds`` and ``bond_orders`` all there
+    are, by file, residues and distances.
 
     Lists are taken as arrays. Raises InputError, naming the column, for lengths that differ, positions that are not
     finite, radii that are not positive and bonds to rows that are not there.
@@ -56,6 +58,22 @@ class Molecule:
 
     def __repr__(self) -> str:
         return f"<Molecule {self.name!r}: {len(self)} atoms>"
+
+    @property
+    def bonds(self) -> Ints:
+        """Row numbers (m, 2) of bonded atoms, first < second, each pair once; found when asked for, then kept."""
+        return self._all_bonds.atoms
+
+    @property
+    def bond_orders(self) -> Floats:
+        """Order (m,) of every bond: 1, 2, 3, 1.5 for aromatic ones of a file; 1 where only distances show the bond."""
+        return self._all_bonds.order
+
+    @cached_property
+    def _all_bonds(self) -> Bonds:
+        from molviz.geometry.bonds import bonds_of  # the law's exception: whoever asks for no bonds needs no geometry
+
+        return bonds_of(self)
 
     def take(self, rows: Ints) -> "Molecule":
         """Return the molecule of the given atoms, in that order."""

@@ -27,6 +27,10 @@ def draw(
     *,
     method: str = "visible",
     check: bool = False,
+    rep: str | Sequence[str | tuple[str, str]] = (),
+    bonds: str = "file",
+    ball_scale: float = 0.25,
+    stick_radius: float | None = None,
     style: str | os.PathLike[str] = "auto",
     color_by: str = "auto",
     color: str | Sequence[str | tuple[str, Any]] = (),
@@ -68,6 +72,10 @@ def draw(
     The options are those of ``molviz draw`` on the command line:
 
     * what is seen: ``method`` "visible" (the exact map) or "painter" (pieces that cover each other), ``check``;
+    * the atoms: ``rep`` "spacefill" (unless told otherwise), "ball-and-stick", "sticks" or "hide", for a part
+      "resn HEM=sticks", several, of which the last that applies wins; ``bonds`` from the "file" and, where it has none,
+      from distances, by "distance" alone, or "none"; ``ball_scale`` (of the radius, in ball-and-stick) and
+      ``stick_radius`` (ångström; usually 0.15 in ball-and-stick, 0.2 in sticks);
     * the look: ``style`` (a name of ``molviz styles`` or a TOML file), ``color_by`` "auto", "element", "chain",
       "entity", "residue", "index", "bfactor" or "exposure", ``color`` ("resn HEM=crimson", several), ``palette``,
       ``parts`` "atoms" or "merged", ``fill`` "flat" or "none", ``outline`` and ``crease`` (widths in points, 0 for

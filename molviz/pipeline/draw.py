@@ -12,6 +12,7 @@ import numpy as np
 from molviz.arrays import Floats
 from molviz.errors import InputError
 from molviz.geometry.measure import measure_spheres
+from molviz.geometry.solids import BallsAndSticks
 from molviz.model.entities import entities_of
 from molviz.model.molecule import Molecule
 from molviz.model.selection import NO_ATOMS, check_selection, select
@@ -22,6 +23,7 @@ from molviz.picture.picture import Color, Picture
 from molviz.picture.style import load_style
 from molviz.pipeline.inputs import Loaded, refuse_unresolved
 from molviz.pipeline.outputs import encoded, refuse_inputs, save
+from molviz.pipeline.solids import SolidOptions, shown, solid_options_from, solids_for
 from molviz.pipeline.values import (
     Options,
     chosen,
@@ -57,6 +59,7 @@ class DrawRequest:
     options: DrawOptions
     colors: tuple[tuple[str, Color], ...] = ()  # selection, colour
     labels: tuple[str, ...] = ()  # SELECTION[=TEXT]
+    solids: SolidOptions = SolidOptions()
     description: str = ""  # the command that draws it
 
 
@@ -76,6 +79,7 @@ class Drawing:
     _options: DrawOptions  # settled
     _view: View
     _seen: VisibilityMap | Pieces
+    _solids: BallsAndSticks
     subject: Subject  # the molecule, and what there is to tell of it
 
     @property
@@ -85,7 +89,10 @@ class Drawing:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is odd about the picture: colours that stand for more than one chain."""
+        """What is odd about the picture: sticks that are not as asked for, colours that stand for several chains."""
+        return self._solids.notes + self._note_of_colors()
+
+    def _note_of_colors(self) -> tuple[str, ...]:
         chains = len(np.unique(self._loaded.molecule.chain))
         if self._options.color_by != "chain" or not self._options.palette.repeats(chains):
             return ()
@@ -184,7 +191,7 @@ def draw_request_from(options: Options) -> DrawRequest:
         check_selection(selection)
     for label in labels:
         labelled_of(NO_ATOMS, label)
-    return DrawRequest(look, colors, labels)
+    return DrawRequest(look, colors, labels, solid_options_from(options))
 
 
 def labelled_of(molecule: Molecule, text: str) -> Labelled:
@@ -206,7 +213,7 @@ def drawing_of(
     ``check`` verifies the visibility map and raises InternalError where an invariant does not hold. Raises InputError
     where the eye is not in front of all atoms.
     """
-    view = view_of(loaded.spheres, view_options)
+    view = view_of(shown(loaded, request.solids)[0].spheres, view_options)
     return drawings_of(loaded, request, [view], method, check)[0]
 
 
@@ -214,11 +221,13 @@ def drawings_of(
     loaded: Loaded, request: DrawRequest, views: Sequence[View], method: str = "visible", check: bool = False
 ) -> list[Drawing]:
     """Return one model drawn from each view; what no view changes is computed once. As ``drawing_of`` otherwise."""
-    refuse_unresolved(loaded)
-    scene = Scene(loaded.spheres, only=views[0] if len(views) == 1 else None)
+    loaded, representation = shown(loaded, request.solids)
+    solids = solids_for(loaded, representation, request.solids)
+    refuse_unresolved(loaded._replace(spheres=solids.balls))
+    scene = Scene(solids.balls, only=views[0] if len(views) == 1 else None)
     options = request.options.settled(entities_of(loaded.molecule), method == "painter")
     subject = subject_of(loaded, request, options)
-    return [_seen_from(view, scene, loaded, subject, options, method, check) for view in views]
+    return [_seen_from(view, scene, solids, loaded, subject, options, method, check) for view in views]
 
 
 def subject_of(loaded: Loaded, request: DrawRequest, options: DrawOptions) -> Subject:
@@ -232,7 +241,14 @@ def subject_of(loaded: Loaded, request: DrawRequest, options: DrawOptions) -> Su
 
 
 def _seen_from(
-    view: View, scene: Scene, loaded: Loaded, subject: Subject, options: DrawOptions, method: str, check: bool
+    view: View,
+    scene: Scene,
+    solids: BallsAndSticks,
+    loaded: Loaded,
+    subject: Subject,
+    options: DrawOptions,
+    method: str,
+    check: bool,
 ) -> Drawing:
     """The drawing of what is seen from one view."""
     seen: VisibilityMap | Pieces
@@ -244,9 +260,9 @@ def _seen_from(
         if check:
             check_map(seen, view)
         visible, arcs = int(np.sum(np.unique(seen.loops.face[~slivers(seen)]) != BACKGROUND)), len(seen.left)
-    low, high = extent(loaded.spheres, view)
+    low, high = extent(solids.balls, view)
     subject = replace(subject, atom=atom, low=low, high=high)
-    return Drawing(loaded.read, len(loaded.molecule), visible, arcs, loaded, options, view, seen, subject)
+    return Drawing(loaded.read, len(loaded.molecule), visible, arcs, loaded, options, view, seen, solids, subject)
 
 
 def color_values(loaded: Loaded, scheme: str) -> Floats:

@@ -23,6 +23,7 @@ def info(loaded: Loaded) -> dict[str, Any]:
         "models": loaded.models,
         "title": loaded.molecule.name,
         "atoms": len(loaded.molecule),
+        "bonds": len(loaded.molecule.bonds),
         "elements": dict(zip(symbols.tolist(), numbers.tolist(), strict=True)),
         "k": float(loaded.spheres.radius.max() / loaded.spheres.radius.min()),
         "rho": closest_ratio(loaded.spheres),

@@ -17,6 +17,7 @@ from molviz.picture.stereo import beside, page_of_half
 from molviz.pipeline.draw import JSON, Drawing, DrawRequest, drawing_of, drawings_of, suffixes
 from molviz.pipeline.inputs import Loaded, means_several
 from molviz.pipeline.outputs import NUMBER, encoded, makes_folder, refuse_inputs, save
+from molviz.pipeline.solids import shown
 from molviz.pipeline.values import Options, chosen, given, parse_count
 from molviz.pipeline.views import ViewOptions, view_of
 from molviz.visibility.view import View
@@ -167,10 +168,11 @@ def drawn(
     """
     if not together.many and together.stereo is None:
         return drawing_of(loaded[0], request, view_options, method, check)
-    options = request.options.settled(entities_of(loaded[0].molecule), method == "painter")
+    first, _ = shown(loaded[0], request.solids)
+    options = request.options.settled(entities_of(first.molecule), method == "painter")
     if together.stereo:
         options = replace(options, page=page_of_half(options.page))
-    request, view = replace(request, options=options), view_of(loaded[0].spheres, view_options)
+    request, view = replace(request, options=options), view_of(first.spheres, view_options)
     around = views_around(view, together.turntable or 1)
     views = [eye for one in around for eye in eyes(one, together.stereo)]
     drawings = framed_alike([one for model in loaded for one in drawings_of(model, request, views, method, check)])

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from molviz.errors import OptionError
+from molviz.model.bonds import SOURCES
 from molviz.model.radii import OWN, load_table
 from molviz.model.selection import check_selection
 from molviz.picture.coloring import CONTINUOUS, DISCRETE
@@ -33,6 +34,7 @@ CHOICES = {
     "color_by": ("auto", *DISCRETE, *CONTINUOUS),
     "parts": ("atoms", "merged"),
     "stereo": ("wall", "cross"),
+    "bonds": SOURCES,
 }
 
 

@@ -12,18 +12,18 @@ import numpy as np
 from molviz.arrays import Strings
 from molviz.model.bonds import AROMATIC, Bonds, Template, bonds_in_residues, joined_lists, run_of_atom
 from molviz.readers.atoms import AtomTable
+from molviz.readers.connections import Connection, connected
 
 if TYPE_CHECKING:
     from molviz.readers.mmcif import Site
 
 _BONDS = ("covale", "covale_base", "covale_phosphate", "covale_sugar", "disulf", "metalc")  # not hydrog, saltbr
 _ORDERS = {"doub": 2.0, "trip": 3.0, "arom": AROMATIC, "delo": AROMATIC}
-Key = tuple[str, str, str]  # chain, residue, atom name
 
 
 def bonds_stated_in(site: "Site", table: AtomTable) -> Bonds:
     """Return the bonds between rows of the table of atoms; those to an atom of another cell are left out."""
-    return joined_lists([*_inside(site, table), _between(site, table)])
+    return joined_lists([*_inside(site, table), connected(table, list(_connections(site)))])
 
 
 # ---- inside residues
@@ -54,24 +54,7 @@ def _templates(site: "Site") -> Mapping[str, Template]:
 # ---- between residues
 
 
-def _between(site: "Site", table: AtomTable) -> Bonds:
-    """Return the bonds of struct_conn in every model, alternate locations only with their own kind."""
-    bonds = list(_connections(site))
-    rows = _rows_of(table, {key for first, second, _ in bonds for key in (first, second)})
-    model, alternate = table.model.tolist(), table.alternate.tolist()
-    pairs, orders = [], []
-    for first, second, order in bonds:
-        partners = defaultdict(list)
-        for row in rows[second]:
-            partners[model[row]].append(row)
-        for row in rows[first]:
-            met = [other for other in partners[model[row]] if len({alternate[row], alternate[other]} - {""}) < 2]
-            pairs += [(row, other) for other in met]
-            orders += [order] * len(met)
-    return Bonds.of(np.array(pairs, dtype=np.int64).reshape(-1, 2), np.array(orders, dtype=float))
-
-
-def _connections(site: "Site") -> Iterator[tuple[Key, Key, float]]:
+def _connections(site: "Site") -> Iterator[Connection]:
     """Yield the two atoms and the order of the connections that are bonds within the listed atoms."""
     kinds = site.texts("_struct_conn.conn_type_id")
     if kinds is None:
@@ -95,13 +78,3 @@ def _connections(site: "Site") -> Iterator[tuple[Key, Key, float]]:
     here = np.isin(np.char.lower(kinds), _BONDS) & (symmetry[0] == symmetry[1])
     for row in np.flatnonzero(here).tolist():
         yield partners[0][row], partners[1][row], _ORDERS.get(orders[row].lower(), 1.0)
-
-
-def _rows_of(table: AtomTable, keys: set[Key]) -> Mapping[Key, list[int]]:
-    """Return the rows of the atoms that the keys name, alternate locations and models included."""
-    rows: dict[Key, list[int]] = defaultdict(list)
-    for row in np.flatnonzero(np.isin(table.residue, [residue for _, residue, _ in keys])).tolist():
-        key = str(table.chain[row]), str(table.residue[row]), str(table.atom_name[row])
-        if key in keys:
-            rows[key].append(row)
-    return rows

@@ -13,9 +13,10 @@ import numpy as np
 
 from molviz.arrays import Bools, Fields, Floats, Ints, Octets, Strings
 from molviz.errors import InputError
-from molviz.model.bonds import NO_BONDS, Bonds
+from molviz.model.bonds import NO_BONDS, Bonds, joined_lists
 from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_atom_name
 from molviz.readers.atoms import AtomTable, models_of
+from molviz.readers.connections import Connection, connected
 from molviz.readers.numbers import number_of, numbers
 from molviz.readers.reading import AssemblyPart, Reading
 from molviz.readers.source import note
@@ -60,7 +61,8 @@ def read_pdb(data: bytes, source: str) -> Reading:
     model, warnings = _models(record, lines, is_atom, source)
     table, more = _table(atoms, model, source)
     bonds, still_more = _connections(lines.take(record == b"CONECT"), _serials(atoms, 7), model, source)
-    models = models_of(table._replace(bonds=bonds), _title(record, lines, source), source)
+    links = connected(table, list(_links(lines, record)))
+    models = models_of(table._replace(bonds=joined_lists([bonds, links])), _title(record, lines, source), source)
     assemblies = _assemblies(lines.take(np.char.startswith(lines.field(1, 10), b"REMARK 350")), source)
     told = (*warnings, *more, *models.warnings, *still_more)
     return Reading(source, "pdb", models.molecules, assemblies, told, models.operator_chain)
@@ -279,6 +281,22 @@ def _bonds(records: Lines, serial: Fields, model: Ints) -> Bonds:
     rows = np.flatnonzero((atoms >= 0).all(axis=1))
     rows = rows[np.argsort(-order[rows], kind="stable")]  # of two records, the one that says more
     return Bonds.of(atoms[rows], order[rows])
+
+
+def _links(lines: Lines, record: Fields) -> Iterator[Connection]:
+    """Yield the connections of LINK and SSBOND, less those to an atom of another cell (columns 60-65 and 67-72)."""
+    for _, short in lines.take((record == b"LINK  ") | (record == b"SSBOND")).texts():
+        text = short.ljust(WIDTH)
+        operators = [text[first : first + 6].strip() for first in (59, 66)]
+        if operators[0] != operators[1]:
+            continue
+        is_link = text[:4].upper() == "LINK"
+        names = [text[12:16].strip(), text[42:46].strip()] if is_link else ["SG", "SG"]
+        chains = (21, 51) if is_link else (15, 29)  # behind each its residue's number and insertion code
+        one, other = [
+            (text[k].strip(), _residue(text[k + 1 : k + 7]), name) for k, name in zip(chains, names, strict=True)
+        ]
+        yield one, other, 1.0
 
 
 def _assemblies(remarks: Lines, source: str) -> Mapping[str, tuple[AssemblyPart, ...]]:
