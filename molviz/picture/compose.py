@@ -73,7 +73,8 @@ class MapComposer:
     """Makes the layers of the drawing of one visibility map."""
 
     def __init__(self, view_map: VisibilityMap, view: View, subject: Subject, options: DrawOptions) -> None:
-        self.map, self.view, self.subject, self.options = view_map, view, subject, options
+        self.map, self.view, self.subject, self.options = view_map.by_sphere(), view, subject, options
+        self.solids = view_map
         self.style = options.chosen_style()
         self.fill = options.fill or self.style.fill
         self.sliver = slivers(view_map)

@@ -224,7 +224,7 @@ def drawings_of(
     loaded, representation = shown(loaded, request.solids)
     solids = solids_for(loaded, representation, request.solids)
     refuse_unresolved(loaded._replace(spheres=solids.balls))
-    scene = Scene(solids.balls, only=views[0] if len(views) == 1 else None)
+    scene = Scene(solids.balls, views[0] if len(views) == 1 else None, solids.sticks)
     options = request.options.settled(entities_of(loaded.molecule), method == "painter")
     subject = subject_of(loaded, request, options)
     return [_seen_from(view, scene, solids, loaded, subject, options, method, check) for view in views]
@@ -259,7 +259,8 @@ def _seen_from(
         seen, atom = scene.map(view)
         if check:
             check_map(seen, view)
-        visible, arcs = int(np.sum(np.unique(seen.loops.face[~slivers(seen)]) != BACKGROUND)), len(seen.left)
+        faces = np.append(seen.owner(), BACKGROUND)[seen.loops.face[~slivers(seen)]]
+        visible, arcs = int(np.sum(np.unique(faces) != BACKGROUND)), len(seen.left)
     low, high = extent(solids.balls, view)
     subject = replace(subject, atom=atom, low=low, high=high)
     return Drawing(loaded.read, len(loaded.molecule), visible, arcs, loaded, options, view, seen, solids, subject)

@@ -48,7 +48,7 @@ class Scene:
         tell((*loaded.warnings, *solids.notes), stacklevel=3)
         self.molecule, self.spheres, self.sticks = loaded.molecule, solids.balls, solids.sticks
         self.view = principal_axes(loaded.spheres)
-        self._scene = SphereScene(self.spheres)
+        self._scene = SphereScene(self.spheres, None, self.sticks)
 
     def __repr__(self) -> str:
         return f"<Scene of {self.molecule.name!r}: {len(self.molecule)} spheres>"

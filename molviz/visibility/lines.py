@@ -4,8 +4,10 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.planar_map import loop_areas
+from molviz.visibility.curves import BORDER, SEAM
 from molviz.visibility.eye import occluders_of, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
+from molviz.visibility.solids import Solids
 from molviz.visibility.view import View
 
 SLIVER = 0.004  # ångström: thinner faces are not drawn; displaced copies of one outline lie ten times closer
@@ -17,12 +19,15 @@ ROLES = ("crease", "outline", "silhouette")  # the names of those that are drawn
 def line_roles(view_map: VisibilityMap, sliver: Bools) -> Ints:
     """Return what each arc (k,) is: CREASE, OUTLINE (before another sphere) or SILHOUETTE (before the background).
 
-    Horizons of slivers are UNDRAWN: the edge they nearly coincide with is drawn instead.
+    Contours of slivers are UNDRAWN: the edge they nearly coincide with is drawn instead. So are seams and borders,
+    across which nothing but a colour changes.
     """
+    kind = view_map.curves.kind[view_map.curve_arcs.curve]
     horizon = np.where(is_silhouette(view_map), SILHOUETTE, OUTLINE)
     loop_of = np.empty(len(view_map.edges.face), dtype=np.int64)
     loop_of[view_map.loops.half_edge] = np.repeat(np.arange(len(sliver)), np.diff(view_map.loops.start))
-    return np.where(view_map.is_crease(), CREASE, np.where(sliver[loop_of[::2]], UNDRAWN, horizon))
+    contour = np.where(sliver[loop_of[::2]], UNDRAWN, horizon)
+    return np.where(np.isin(kind, (SEAM, BORDER)), UNDRAWN, np.where(view_map.is_crease(), CREASE, contour))
 
 
 def is_silhouette(view_map: VisibilityMap) -> Bools:
@@ -43,12 +48,12 @@ def slivers(view_map: VisibilityMap) -> Bools:
 def depth_jump(view_map: VisibilityMap, view: View) -> Floats:
     """Return how much farther than each arc (k,) the surface behind it lies at its middle, in ångström.
 
-    Measured along the line of sight; 0 at a crease, infinite at a silhouette.
+    Measured along the line of sight; 0 where two surfaces meet, infinite at a silhouette.
     """
     projection, arcs = projection_of(view), view_map.curve_arcs
+    solids = Solids(occluders_of(view_map.spheres, view), view_map.sticks)
     points = view_map.curves.at(arcs.curve, arcs.start + arcs.sweep / 2)
-    behind = occluders_of(view_map.spheres, view).surface(
-        np.maximum(view_map.right, 0), projection.page_points(points)
-    )
+    right = solids.rows(np.maximum(view_map.right, 0))
+    behind, _ = solids.surfaces(right, projection.page_points(points), projection)
     jump = np.where(is_silhouette(view_map), np.inf, projection.nearness(points) - behind)
-    return np.where(view_map.is_crease(), 0.0, jump)
+    return np.where(view_map.curves.is_contour()[arcs.curve], jump, 0.0)

@@ -62,6 +62,12 @@ class VisibilityMap(NamedTuple):
         """Return the sphere (n + 2k,) of each solid: itself, or that at the end of a half stick."""
         return np.append(np.arange(len(self.spheres.radius)), self.sticks.ends.sphere)
 
+    def by_sphere(self) -> "VisibilityMap":
+        """Return the map with the halves of sticks counted as parts of their balls' faces; arcs stay as they are."""
+        owner = np.append(self.owner(), BACKGROUND)
+        edges = self.edges._replace(face=owner[self.edges.face])
+        return self._replace(edges=edges, loops=self.loops._replace(face=owner[self.loops.face]))
+
     def horizons(self) -> Curves:
         """Return the horizons, in the order of the spheres."""
         return self.curves.of_kind(HORIZON)

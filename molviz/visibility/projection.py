@@ -9,8 +9,9 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.curves import PlaneArcs, straight_pieces
+from molviz.curves import PlaneArcs
 from molviz.model.spheres import Spheres
+from molviz.vectors import dot
 from molviz.visibility.curves import LINE, Curves
 
 
@@ -126,14 +127,21 @@ def _eccentric(angle: Floats, e: Floats) -> Floats:
 
 
 def arcs_on_page(curves: Curves, curve: Ints, start: Floats, sweep: Floats, projection: Projection) -> PlaneArcs:
-    """Return the images of arcs of curves; those of lines as straight pieces, whatever the pace."""
+    """Return the images of arcs of curves; of a line ``c + u cos t``, all arcs of one with the same c and u.
+
+    Where t is π/3 and 2π/3 are the images of the line's ends.
+    """
     arcs = projection.page_arcs(curves, curve, start, sweep)
     rows = np.flatnonzero(curves.kind[curve] == LINE)
     if not len(rows):
         return arcs
-    ends = (projection.page_points(curves.at(curve[rows], at)) for at in (start[rows], (start + sweep)[rows]))
-    for column, piece in zip(arcs, straight_pieces(*ends), strict=True):
-        column[rows] = piece
+    line = curve[rows]
+    angles = (np.full(len(rows), np.pi / 3), np.full(len(rows), 2 * np.pi / 3), start[rows], (start + sweep)[rows])
+    first, last, begin, end = (projection.page_points(curves.at(line, angle)) for angle in angles)
+    c, u = (first + last) / 2, first - last
+    begins, ends = (np.arccos(np.clip(dot(point - c, u) / dot(u, u), -1.0, 1.0)) for point in (begin, end))
+    for column, values in zip(arcs, (c, u, np.zeros_like(u), begins, ends - begins), strict=True):
+        column[rows] = values
     return arcs
 
 
