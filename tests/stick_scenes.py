@@ -73,7 +73,9 @@ def _into_sticks(spheres: Spheres, sticks: Sticks, origin: np.ndarray, ray: np.n
         aa, ab, bb = np.sum(a * a, axis=1), np.sum(a * b, axis=1), np.sum(b * b, axis=1) - radius**2
         square = ab**2 - aa * bb
         far = np.where(square > 0, (-ab - np.sqrt(np.maximum(square, 0))) / aa, np.inf)
-        along = np.where(np.isfinite(far), np.sum((origin - start + np.where(np.isfinite(far), far, 0)[:, None] * ray) * u, axis=1), -1)
+        known = np.isfinite(far)
+        place = origin - start + np.where(known, far, 0)[:, None] * ray
+        along = np.where(known, np.sum(place * u, axis=1), -1)
         for low, high in ((0, length / 2), (length / 2, length)):
             rows.append(np.where((along >= low) & (along < high), far, np.inf)[None])
     return rows

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from molviz.picture.picture import Gradient, RadialGradient
+from molviz.picture.picture import Gradient, RadialGradient, offsets_at
 from molviz.write import write
-from molviz.write.paint import border_colors, mixed_color, offsets_at
+from molviz.write.paint import border_colors, mixed_color
 from tests.render import (
     needs_chromium,
     needs_ghostscript,

@@ -75,6 +75,14 @@ def merged_faces(edges: PlanarMap, label: Ints) -> PlanarMap:
     return PlanarMap(edges.origin, following, np.where(inner, UNUSED, label))
 
 
+def taken_arcs(edges: PlanarMap, rows: Ints) -> PlanarMap:
+    """Return the map of the given arcs (ascending), which bound all its faces, numbered anew."""
+    number = np.full(len(edges.face) + 1, -1)  # row −1 stays −1
+    kept = np.stack([2 * rows, 2 * rows + 1], axis=1).ravel()
+    number[kept] = np.arange(len(kept))
+    return PlanarMap(edges.origin[kept], number[edges.next[kept]], edges.face[kept])
+
+
 def loops(edges: PlanarMap) -> Loops:
     """Return the boundary loops of all faces, each from its smallest half-edge, ordered by face."""
     half_edge, start = cycles(edges.next)

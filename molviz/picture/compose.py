@@ -51,6 +51,7 @@ from molviz.picture.regions import (
     stacked,
 )
 from molviz.picture.shading import ball_gradients, contact_steps, light_bands
+from molviz.picture.stick_light import StickLight
 from molviz.picture.tints import entity_tints
 from molviz.visibility.eye import projection_of
 from molviz.visibility.horizon_runs import HorizonRuns, horizon_runs
@@ -104,7 +105,7 @@ class MapComposer:
         """Return all layers in painting order: regions, shade, light, lines."""
         layers: list[Layer] = []
         if self.fill != "none":
-            layers += [self.regions(), *self.shade(), *self.light()]
+            layers += [self.regions(), *self.shade(), *self.light(), *self.sticks()]
         return [*layers, *self.hatching(), *self.edges(), *self.ink()]
 
     @cached_property
@@ -176,12 +177,13 @@ class MapComposer:
 
     def atoms(self) -> FillLayer:
         """Return one shape per visible atom, ordered by chain and residue so that these can be groups."""
-        face = self.map.loops.face
+        seen = self.solids.of_spheres() if self.fill == "ball" else self.map
+        face = seen.loops.face
         keep = np.flatnonzero((face != BACKGROUND) & ~self.sliver)
         rank = _file_order(self.subject.molecule)[self.subject.atom]
         order = keep[np.argsort(rank[face[keep]], kind="stable")]
         shape = np.cumsum(np.append(False, np.diff(face[order]) != 0)[: len(order)])
-        paths = shapes_of(self.arcs, self.map.curve_arcs.curve, closed_chains(self.map.loops, order), shape)
+        paths = shapes_of(self.arcs, self.map.curve_arcs.curve, closed_chains(seen.loops, order), shape)
         sphere = face[order][np.searchsorted(shape, np.arange(len(paths.shape_start) - 1))]
         named = marks(self.subject.molecule.take(self.subject.atom[sphere]), True)
         if self.options.is_mask:
@@ -192,6 +194,18 @@ class MapComposer:
         images = images.moved(self.placement.scale, self.placement.shift)
         balls = ball_gradients(self.looks.fill[sphere], images.major(), self.style)
         return FillLayer("atoms", paths, balls, named, SPREAD, images.c)
+
+    def sticks(self) -> list[Layer]:
+        """Return what the light makes of sticks: bands, or the gradients of a shaded drawing."""
+        light = self.style.light
+        if self.options.is_mask or not len(self.solids.sticks.length):
+            return []
+        fill = self.looks.fill[self.solids.sticks.ends.sphere]
+        lit = StickLight(self.solids, projection_of(self.view), self.placement, light)
+        if self.fill != "ball":
+            return [*lit.bands(fill)]
+        paints, origin = lit.gradients(fill, self.style)
+        return [FillLayer("sticks", lit.paths, paints, [region_mark("", "stick")] * len(paints), SPREAD, origin)]
 
     def shade(self) -> list[Layer]:
         """Return the contact shade, in the deep colour of whatever it falls on."""
@@ -219,10 +233,11 @@ class MapComposer:
         """Return steps clipped to the regions of each label (s,) and painted in its colour; none without steps."""
         if not opacity:
             return []
-        clip = merged_regions(self.map, self.arcs, label)
+        balls = self.solids.of_spheres()
+        clip = merged_regions(balls, self.arcs, label)
         keys = np.column_stack([label, self.looks.fill])
         _, first, tone_label = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-        tone = merged_regions(self.map, self.arcs, tone_label.ravel())
+        tone = merged_regions(balls, self.arcs, tone_label.ravel())
         sphere = first[tone.label]
         place = np.searchsorted(clip.label, label[sphere])
         return [

@@ -4,8 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
+import numpy as np
+
 from molviz.arrays import Floats
 from molviz.curves import Paths
+from molviz.vectors import dot
 
 SPREAD = 0.24  # points: the usual stroke in a fill's own colour that closes the hairline to its neighbour
 
@@ -41,6 +44,21 @@ class LinearGradient:
 
 Gradient: TypeAlias = RadialGradient | LinearGradient
 Paint: TypeAlias = Color | RadialGradient | LinearGradient  # sRGB, mixed linearly between stops
+
+
+def offsets_at(gradient: Gradient, points: Floats) -> Floats:
+    """Return the offsets (k,) of a gradient at points (k, 2); ends go on where the result is below 0 or above 1.
+
+    Circle s of a ball has its centre at ``(1 − s) f`` and radius ``s R``. A point f + d lies on it where
+    ``|d + s f|² = s² R²``, whose larger root is ``(d·f + √((d·f)² + (R² − f²) d²)) / (R² − f²)``.
+    """
+    if isinstance(gradient, LinearGradient):
+        along = np.subtract(gradient.end, gradient.start)
+        return np.asarray((points - gradient.start) @ along / (along @ along))
+    focus = np.array(gradient.focus)
+    d, left = points - focus, gradient.radius**2 - focus @ focus
+    product = d @ focus
+    return np.asarray((product + np.sqrt(product**2 + left * dot(d, d))) / left)
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ from molviz.visibility.view import View
 
 LEDGE_FROM = 1.0  # ångström: wider skirts hang from ledges only, not from lone tips
 LEDGE_WITHIN = 1.6  # ångström beyond the skirt's reach
-SPECK = 0.15  # Å²: smaller bands of light look like dirt
+SPECK = 0.06  # of the square of the usual radius: smaller bands of light look like dirt
 RADIUS_STEP = 0.03  # of a radius: the eye tells no gradients apart that differ by less
 FOCUS = 0.55  # of the radius, how far from the middle a ball is brightest, times the light's x and y
 LEDGE_COUNT = 7  # spheres that make a ledge
@@ -72,13 +72,13 @@ def light_bands(
 ) -> tuple[tuple[Paths, list[float]], tuple[Paths, list[float]]]:
     """Return the dark and the bright bands: steps, one shape each, and their opacities."""
     spheres = view_map.spheres.take(seen_spheres(view_map))
-    toward = np.array(light.direction)
+    toward, speck = np.array(light.direction), SPECK * float(np.mean(spheres.radius)) ** 2
     dark = [
-        (_region(spheres, shaded_sides(spheres, toward, cosine), view, placement, SPECK), opacity)
+        (_region(spheres, shaded_sides(spheres, toward, cosine), view, placement, speck), opacity)
         for cosine, opacity in light.terminators
     ]
     bright = [
-        (_region(spheres, shaded_sides(spheres, -toward, -cosine), view, placement, SPECK), opacity)
+        (_region(spheres, shaded_sides(spheres, -toward, -cosine), view, placement, speck), opacity)
         for cosine, opacity in light.highlights
     ]
     return _stacked(dark), _stacked(bright)
@@ -113,12 +113,13 @@ def ball_gradients(color: Ints, radius: Floats, style: Style) -> list[RadialGrad
     return [
         RadialGradient(
             size, (FOCUS * x * size, FOCUS * y * size),
-            ((0.0, _color(light)), (0.3, _color(own)), (0.75, _color(deeper)), (1.0, _color(edge))),
+            ((0.0, color_of(light)), (0.3, color_of(own)), (0.75, color_of(deeper)), (1.0, color_of(edge))),
         )
         for size, light, own, deeper, edge in rows
     ]  # fmt: skip
 
 
-def _color(row: list[int]) -> Color:
+def color_of(row: list[int]) -> Color:
+    """Return a row of three numbers as a colour."""
     red, green, blue = row
     return red, green, blue

@@ -38,8 +38,8 @@ def check_map(view_map: VisibilityMap, view: View) -> None:
 def area_difference(view_map: VisibilityMap, projection: Projection) -> float:
     """Return by how much, relatively, the faces' total area misses that of the union of the discs (parallel views).
 
-    The second comes from the discs' own free arcs alone; a central view, whose outlines are ellipses, and one with sticks
-    compare the faces with the outer loops instead.
+    The second comes from the discs' own free arcs alone; a central view, whose outlines are ellipses, and one with
+    sticks compare the faces with the outer loops instead.
     """
     areas = loop_areas(view_map.arcs, view_map.loops)
     inside = float(areas[view_map.loops.face != BACKGROUND].sum())
@@ -66,8 +66,8 @@ def _union_of_discs(view_map: VisibilityMap, projection: Projection) -> float:
 def arcs_beside_wrong_faces(view_map: VisibilityMap, view: View) -> Ints:
     """Return the arcs beside whose middle the nearest surface is not the face that the map names.
 
-    Arcs that are too short to step beside are left out, points at which two surfaces are closer than the step, and seams
-    of joints, of which a strip far thinner than the step may be all that shows.
+    Arcs that are too short to step beside are left out, points at which two surfaces are closer than the step, and
+    seams of joints, of which a strip far thinner than the step may be all that shows.
     """
     arcs = view_map.arcs
     middle = arcs.middle()

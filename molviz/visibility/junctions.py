@@ -65,7 +65,7 @@ def _enter(entered: Ints, name: Ints, vertex: Ints, solids: Solids) -> None:
     rows = np.flatnonzero((kind == ENTRY) | (kind == ELBOW))
     entered[vertex[rows]] = name[rows, 2]
     rows = np.flatnonzero(kind == EDGE)
-    end = name[rows, 1] - solids.count
+    end = name[rows, 1] - solids.balls
     entered[vertex[rows]] = np.where(solids.sticks.ends.joint[end], -1, solids.sticks.ends.sphere[end])
 
 
@@ -73,7 +73,7 @@ def _junctions(
     named: NamedArcs, curves: Curves, solids: Solids, central: bool, name: Ints, vertex: Ints, fraction: float
 ) -> _Junctions:
     """Where the arcs that end in a TEE or a HALF, at their starts (fraction 0) or ends (1), meet the contour there."""
-    kind, count = name[:, 0] >> 1, solids.count
+    kind, count = name[:, 0] >> 1, solids.balls
     rows = np.flatnonzero((kind == TEE) | (kind == HALF))
     above = np.where(kind[rows] == TEE, name[rows, 2], name[rows, 1] + (name[rows, 0] & 1))
     if np.any(above < 0):
@@ -92,14 +92,14 @@ def _junctions(
 
 
 def _beside_centres(curves: Curves, solids: Solids, curve: Ints, above: Ints) -> Bools:
-    """Whether a junction is one of a ball's horizon and the line of a stick of it that is beside the line of centres."""
+    """Whether a junction is one of a ball's horizon and the line of its stick beside the line of centres."""
     own = curves.first[curve]
     ends = solids.sticks.ends
     aside = np.append(dot(ends.offset, ends.offset) > 0, False)
     sphere = np.append(ends.sphere, -2)
     beside = np.zeros(len(curve), dtype=bool)
     for line, ball in ((own, above), (above, own)):
-        stick = np.where(line >= solids.count, (line - solids.count) >> 1, len(ends.sphere) >> 1)
+        stick = np.where(line >= solids.balls, (line - solids.balls) >> 1, len(ends.sphere) >> 1)
         for end in (2 * stick, np.minimum(2 * stick + 1, len(ends.sphere))):
             beside |= aside[end] & (sphere[end] == ball)
     return beside

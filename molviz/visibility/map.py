@@ -14,16 +14,16 @@ from molviz.geometry.boundary import Boundary
 from molviz.geometry.grid import Neighbours
 from molviz.geometry.planar_map import Loops, PlanarMap, loops, planar_map
 from molviz.model.spheres import Spheres
-from molviz.visibility.curves import CREASE, HORIZON, LINE, Curves
+from molviz.visibility.curves import HORIZON, LINE, Curves
 from molviz.visibility.junctions import CurveArcs, split_at_junctions
 from molviz.visibility.named_arcs import Hidden, joined, visible_arcs
-from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.occluders.stick import StickOccluders
 from molviz.visibility.occlusion import creases_hidden, discs_of, horizons_hidden, overlaps
 from molviz.visibility.own_occlusion import beyond_own_plane, creases_in_view, outside_free_arcs
 from molviz.visibility.projection import Projection, arcs_on_page
 from molviz.visibility.settle import settle_ends
-from molviz.visibility.solids import BACKGROUND, Solids
+from molviz.visibility.solids import BACKGROUND as BACKGROUND
+from molviz.visibility.solids import Solids
 from molviz.visibility.stick_curves import caps_on_horizons, hidden_of_own, stick_curves
 from molviz.visibility.stick_occlusion import hidden_by_spheres, hidden_by_sticks, sticks_before, sticks_before_spheres
 from molviz.visibility.view import View
@@ -64,9 +64,18 @@ class VisibilityMap(NamedTuple):
 
     def by_sphere(self) -> "VisibilityMap":
         """Return the map with the halves of sticks counted as parts of their balls' faces; arcs stay as they are."""
-        owner = np.append(self.owner(), BACKGROUND)
-        edges = self.edges._replace(face=owner[self.edges.face])
-        return self._replace(edges=edges, loops=self.loops._replace(face=owner[self.loops.face]))
+        return self._with_faces(self.owner())
+
+    def of_spheres(self) -> "VisibilityMap":
+        """Return the map with the halves of sticks counted as background."""
+        count = len(self.spheres.radius)
+        return self._with_faces(np.append(np.arange(count), np.full(len(self.sticks.ends.sphere), BACKGROUND)))
+
+    def _with_faces(self, label: Ints) -> "VisibilityMap":
+        """The map with labels (n + 2k,) for faces."""
+        label = np.append(label, BACKGROUND)
+        edges = self.edges._replace(face=label[self.edges.face])
+        return self._replace(edges=edges, loops=self.loops._replace(face=label[self.loops.face]))
 
     def horizons(self) -> Curves:
         """Return the horizons, in the order of the spheres."""
@@ -86,14 +95,15 @@ def map_in_view(
     projection: Projection,
     label: Ints | None = None,
 ) -> VisibilityMap:
-    """Return the map of what is seen of the ``wanted`` spheres (ascending) and their sticks, as if there were no others.
+    """Return the map of what is seen of the ``wanted`` spheres (ascending) and their sticks, as if there were no more.
 
     The spheres of ``solids`` are the wanted ones of the boundary, in eye coordinates; the map numbers them by their
-    place in ``wanted``. Where a ``label`` (n,) from 0 of all the boundary's spheres is given (and no sticks),
-    faces carry labels, and only what separates different ones is computed. Raises ``Degenerate`` where the solids are not in general position.
+    place in ``wanted``. Where a ``label`` (n,) from 0 of all the boundary's spheres is given (and no sticks), faces
+    carry labels, and only what separates different ones is computed. Raises ``Degenerate`` where the solids are not in
+    general position.
     """
     spheres = solids.spheres
-    number = np.arange(solids.count + len(solids.sticks.ends.sphere))
+    number = np.arange(solids.balls + len(solids.sticks.ends.sphere))
     label = number if label is None else label[wanted]
     creases, hidden = _creases_between(boundary, wanted, label, view)
     horizons = spheres.horizons()
@@ -112,8 +122,8 @@ def map_in_view(
         near = solids.overlaps(projection, view)
         curves, more = _with_sticks(solids, creases, horizons, near)
         parts += more
-    named = visible_arcs(curves, np.arange(len(curves.first)), joined(parts), solids.count)
-    settle_ends(named, curves, solids.sticks, solids.count)
+    named = visible_arcs(curves, np.arange(len(curves.first)), joined(parts), solids.balls)
+    settle_ends(named, curves, solids.sticks, solids.balls)
     curve_arcs, entered = split_at_junctions(named, curves, solids, view.distance is not None)
     sides = _sides(solids, curves, curve_arcs, entered, near, projection)
     return _assembled(solids, curves, curve_arcs, np.append(label, BACKGROUND)[sides], projection)
@@ -126,19 +136,20 @@ def _with_sticks(
 
     ``near`` are the overlaps of spheres and sticks on the page.
     """
-    spheres, sticks, count = solids.spheres, solids.sticks, solids.count
+    spheres, sticks, count = solids.spheres, solids.sticks, solids.balls
     of = stick_curves(sticks, count)
     plain = creases.followed_by(horizons)
     start = len(plain.first)
     curves = plain.followed_by(of.curves)
     own = caps_on_horizons(sticks, spheres, horizons, of, count)
-    before_sticks = sticks_before(sticks, of, near, count)
+    behind = sticks_before_spheres(sticks, plain.first, plain.second, near, count)
+    own_behind = sticks_before(sticks, of, near, count)
     return curves, [
         own._replace(curve=own.curve + len(creases.first)),
         *hidden_of_own(sticks, spheres, of, start),
         *hidden_by_spheres(spheres, sticks, of, near, start),
-        *hidden_by_sticks(sticks, curves, *sticks_before_spheres(sticks, plain.first, plain.second, near, count), count),
-        *hidden_by_sticks(sticks, curves, before_sticks[0] + start, before_sticks[1], count),
+        *hidden_by_sticks(sticks, curves, *behind, count),
+        *hidden_by_sticks(sticks, curves, own_behind[0] + start, own_behind[1], count),
     ]
 
 

@@ -5,10 +5,12 @@ from typing import Any
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.geometry.planar_map import loop_areas
-from molviz.visibility.curves import KINDS
+from molviz.curves import PlaneArcs
+from molviz.geometry.planar_map import UNUSED, loop_areas, loops, merged_faces, taken_arcs
+from molviz.visibility.curves import KINDS, LINE
 from molviz.visibility.eye import eye_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
+from molviz.visibility.occluders.stick import StickOccluders
 from molviz.visibility.view import View
 
 
@@ -16,19 +18,44 @@ def map_as_data(view_map: VisibilityMap, atom: Ints, view: View) -> dict[str, An
     """Return the map in view coordinates: the molecule's own, turned by ``view`` (its origin where the file's is).
 
     ``atom`` (s,) is each sphere's row in the input. Spheres are those the map was computed for: displaced by less than
-    1e-4 of their radius from the input, and without those that are certainly hidden.
+    1e-4 of their radius from the input, and without those that are certainly hidden. Sticks, whole ones, are numbered
+    after the spheres; with them the version is 2.
     """
     origin = view.rotation @ view.center
     shift = origin + eye_of(view)
+    whole, spheres, sticks = _whole_sticks(view_map), _spheres(view_map, atom, shift), _sticks(view_map.sticks)
     return {
         "format": "molviz-visibility-map",
-        "version": 1,
+        "version": 2 if sticks else 1,
         "units": "angstrom",
         "view": view.rotation.tolist(),
-        "spheres": _spheres(view_map, atom, shift),
-        "arcs": _arcs(view_map, origin[:2]),
-        "faces": _faces(view_map),
+        "spheres": spheres,
+        **({"sticks": sticks} if sticks else {}),
+        "arcs": _arcs(whole, origin[:2]),
+        "faces": _faces(whole),
     }
+
+
+def _whole_sticks(view_map: VisibilityMap) -> VisibilityMap:
+    """The map with one face for each stick instead of two halves; the borders between these are gone."""
+    if not len(view_map.sticks.length):
+        return view_map
+    count = len(view_map.spheres.radius)
+    solid = np.append(np.arange(count), count + np.arange(len(view_map.sticks.ends.sphere)) // 2)
+    edges = merged_faces(view_map.edges, np.append(solid, BACKGROUND)[view_map.edges.face])
+    kept = np.flatnonzero(edges.face[::2] != UNUSED)
+    edges = taken_arcs(edges, kept)
+    curves = view_map.curves._replace(first=solid[view_map.curves.first], second=solid[view_map.curves.second])
+    return view_map._replace(
+        curves=curves, curve_arcs=view_map.curve_arcs.take(kept), arcs=view_map.arcs.take(kept), edges=edges,
+        loops=loops(edges),
+    )  # fmt: skip
+
+
+def _sticks(sticks: StickOccluders) -> list[dict[str, Any]]:
+    pairs, radii = sticks.ends.sphere.reshape(-1, 2).tolist(), sticks.radius.tolist()
+    rows = zip(pairs, radii, sticks.ends.offset[::2].tolist(), strict=True)
+    return [{"spheres": pair, "radius": radius, "offset": offset} for pair, radius, offset in rows]
 
 
 def _spheres(view_map: VisibilityMap, atom: Ints, shift: Floats) -> list[dict[str, Any]]:
@@ -38,8 +65,8 @@ def _spheres(view_map: VisibilityMap, atom: Ints, shift: Floats) -> list[dict[st
 
 def _arcs(view_map: VisibilityMap, origin: Floats) -> list[dict[str, Any]]:
     curve = view_map.curve_arcs.curve
-    second = np.where(view_map.is_crease(), view_map.curves.second[curve], -1)
-    arcs = view_map.arcs
+    second = np.where(view_map.curves.is_contour()[curve], -1, view_map.curves.second[curve])
+    arcs = _with_straight_lines(view_map)
     columns = {
         "kind": np.array(KINDS)[view_map.curves.kind[curve]],
         "spheres": np.column_stack([view_map.curves.first[curve], second]),
@@ -54,6 +81,16 @@ def _arcs(view_map: VisibilityMap, origin: Floats) -> list[dict[str, Any]]:
         "to": view_map.curve_arcs.target,
     }
     return [dict(zip(columns, row, strict=True)) for row in zip(*(c.tolist() for c in columns.values()), strict=True)]
+
+
+def _with_straight_lines(view_map: VisibilityMap) -> PlaneArcs:
+    """The arcs; a piece of a line is c + t u for t from 0 to 1."""
+    arcs = view_map.arcs
+    line = view_map.curves.kind[view_map.curve_arcs.curve] == LINE
+    start, end = arcs.starts(), arcs.ends()
+    columns = ((start, arcs.c), (end - start, arcs.u), (0.0 * start, arcs.v))
+    c, u, v = (np.where(line[:, None], straight, bent) for straight, bent in columns)
+    return PlaneArcs(c, u, v, np.where(line, 0.0, arcs.start), np.where(line, 1.0, arcs.sweep))
 
 
 def _faces(view_map: VisibilityMap) -> list[dict[str, Any]]:

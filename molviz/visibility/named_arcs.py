@@ -6,8 +6,8 @@ Where an arc ends is known by *why* it ends, never by comparing coordinates. Thr
 * ``ENTRY (i, j)``: the horizon of i enters ball j; the crease of i and j, which sinks below it there, ends too.
 * ``TEE (a, k)``: arc a passes under the contour k of a nearer solid, and nothing else ends there. Contours are
   numbered: the horizons of the spheres, then the silhouette lines of the sticks, two of each.
-* ``EDGE (h)``: the silhouette line of stick half h ends in its ball, and its rim turns away from the eye. At a joint the
-  horizon of the ball ends there too.
+* ``EDGE (h)``: the silhouette line of stick half h ends in its ball, and its rim turns away from the eye. At a joint
+  the horizon of the ball ends there too.
 * ``ELBOW (h, l)``: the silhouette line of h enters stick half l of the same joint, and their elbow turns away.
 * ``HALF (h)``: the border of h and its stick's other half meets a silhouette line.
 

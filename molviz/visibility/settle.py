@@ -5,21 +5,25 @@ of l, which would enter k a little farther, is behind k already. Seen along the 
 flat ring are, seen on edge) the two points differ by the square of the displacement only, which is rounding: then the
 elbow decides.
 
-A stick beside the line of centres leaves its ball through a plane that misses their true curve by some 5e-4 Å. Where the
-rim turns away from the eye before it sinks below the ball's horizon, the stick's line begins there and the horizon
-passes under it; where it sinks first, the horizon enters the stick and the line comes out from under it. The rim decides.
+A stick beside the line of centres leaves its ball through a plane that misses their true curve by some 5e-4 Å. Where
+the rim turns away from the eye before it sinks below the ball's horizon, the stick's line begins there and the horizon
+passes under it; where it sinks first, the horizon enters the stick and the line comes out from under it. The rim
+decides.
 """
+
+from typing import TypeAlias
 
 import numpy as np
 
-from molviz.arrays import Ints
+from molviz.arrays import Bools, Ints
 from molviz.vectors import dot
 from molviz.visibility.curves import HORIZON, LINE, SEAM, Curves
 from molviz.visibility.named_arcs import NamedArcs
 from molviz.visibility.names import EDGE, ELBOW, ENTRY, TEE
 from molviz.visibility.occluders.stick import StickOccluders
 
-Place = tuple[Ints, int]  # a table of names and a row of it
+Place: TypeAlias = tuple[Ints, int]  # a table of names and a row of it
+HorizonEnds: TypeAlias = dict[tuple[int, int, int], list[Place]]
 
 
 def settle_ends(arcs: NamedArcs, curves: Curves, sticks: StickOccluders, count: int) -> None:
@@ -55,43 +59,52 @@ class _Ends:
             if place and self._is_behind(place, [self._line(key[2], side) for side in (0, 1)]):
                 place[0][place[1]] = key
 
-    def _rims(self, aside: np.ndarray) -> None:
+    def _rims(self, aside: Bools) -> None:
         """At each visible end of a rim, let the line and the horizon there end as it says."""
         second = self.curves.second[self.arcs.curve]
-        rim = (self.curves.first[self.arcs.curve] < self.count) & (second >= self.count)
-        rows = np.flatnonzero(rim)
+        rows = np.flatnonzero((self.curves.first[self.arcs.curve] < self.count) & (second >= self.count))
         rows = rows[aside[second[rows] - self.count]]
         horizon_ends = self._ends_of_horizons(np.unique(self.curves.first[self.arcs.curve[rows]]))
         for row in rows.tolist():
             sphere, half = int(self.curves.first[self.arcs.curve[row]]), int(second[row])
             for name in self._names():
-                side = int(name[row, 0] & 1)
-                line = self._at_end(half, side)
                 if name[row, 0] >> 1 == EDGE:
-                    if line and self._is_behind(line, [sphere]):
-                        line[0][line[1]] = name[row]
-                    for place in horizon_ends.get((ENTRY * 2 + side, sphere, half), []):
-                        self._end_behind(place, self._line(half, side))
+                    self._line_begins(name[row], sphere, half, horizon_ends)
                 elif name[row, 0] >> 1 == ENTRY:
-                    if line and line[0][line[1], 0] >> 1 == EDGE:
-                        self._end_behind(line, sphere)
-                    if (ENTRY * 2 + side, sphere, half) not in horizon_ends:
-                        for place in horizon_ends.get((TEE, sphere, self._line(half, side)), [])[:1]:
-                            place[0][place[1]] = name[row]
+                    self._stick_is_entered(name[row], sphere, half, horizon_ends)
+
+    def _line_begins(self, edge: Ints, sphere: int, half: int, horizon_ends: HorizonEnds) -> None:
+        """The stick's line begins at the end of the rim, and the ball's horizon passes under it."""
+        side = int(edge[0] & 1)
+        line = self._at_end(half, side)
+        if line and self._is_behind(line, [sphere]):
+            line[0][line[1]] = edge
+        for place in horizon_ends.get((ENTRY * 2 + side, sphere, half), []):
+            self._end_behind(place, self._line(half, side))
+
+    def _stick_is_entered(self, entry: Ints, sphere: int, half: int, horizon_ends: HorizonEnds) -> None:
+        """The ball's horizon enters the stick at the end of the rim, and the stick's line comes out from under it."""
+        side = int(entry[0] & 1)
+        line = self._at_end(half, side)
+        if line and line[0][line[1], 0] >> 1 == EDGE:
+            self._end_behind(line, sphere)
+        if (ENTRY * 2 + side, sphere, half) not in horizon_ends:
+            for place in horizon_ends.get((TEE, sphere, self._line(half, side)), [])[:1]:
+                place[0][place[1]] = entry
 
     def _names(self) -> tuple[Ints, Ints]:
         return self.arcs.origin, self.arcs.target
 
-    def _ends_of_horizons(self, spheres: Ints) -> dict[tuple[int, int, int], list[Place]]:
+    def _ends_of_horizons(self, spheres: Ints) -> HorizonEnds:
         """Where the horizons of the given spheres enter sticks, by name, and where they pass under lines."""
         own = self.curves.first[self.arcs.curve]
         rows = np.flatnonzero((self.curves.kind[self.arcs.curve] == HORIZON) & np.isin(own, spheres))
-        ends: dict[tuple[int, int, int], list[Place]] = {}
+        ends: HorizonEnds = {}
         for name in self._names():
             for row in rows[np.isin(name[rows, 0] >> 1, (ENTRY, TEE))].tolist():
                 is_tee = name[row, 0] >> 1 == TEE
                 key = (TEE, int(own[row]), int(name[row, 2])) if is_tee else tuple(name[row, :3].tolist())
-                ends.setdefault(key, []).append((name, row))  # type: ignore[arg-type]
+                ends.setdefault(key, []).append((name, row))
         return ends
 
     def _same_side(self, half: int, other: int, side: int) -> int:

@@ -19,19 +19,19 @@ BACKGROUND = -1
 
 
 class Solids(NamedTuple):
-    """n spheres and k sticks; halves of sticks are numbered n + 2 k + end, those at the first ball and at the second."""
+    """n spheres and k sticks; the halves of stick j at its first and second ball are number n + 2 j and n + 2 j + 1."""
 
     spheres: SphereOccluders
     sticks: StickOccluders
 
     @property
-    def count(self) -> int:
+    def balls(self) -> int:
         """The number of spheres."""
         return len(self.spheres.spheres.radius)
 
     def rows(self, solid: Ints) -> Ints:
         """Return the numbers of spheres and sticks, n + k, of solids (m,), which count the halves of sticks."""
-        return np.where(solid < self.count, solid, (solid + self.count) // 2)
+        return np.where(solid < self.balls, solid, (solid + self.balls) // 2)
 
     def overlaps(self, projection: Projection, view: View) -> Neighbours:
         """Return which of n spheres and k sticks may overlap each on the page."""
@@ -49,15 +49,15 @@ class Solids(NamedTuple):
 
     def surfaces(self, entry: Ints, page: Floats, projection: Projection) -> tuple[Floats, Ints]:
         """Return how near each of n spheres and k sticks lies at page points (m, 2), −∞ beside it; and which solid."""
-        stick = np.flatnonzero(entry >= self.count)
+        stick = np.flatnonzero(entry >= self.balls)
         if not len(stick):
             return self.spheres.surface(entry, page), entry
-        ball = np.flatnonzero(entry < self.count)
+        ball = np.flatnonzero(entry < self.balls)
         nearness, solid = np.empty(len(entry)), entry.copy()
         nearness[ball] = self.spheres.surface(entry[ball], page[ball])
-        row = entry[stick] - self.count
+        row = entry[stick] - self.balls
         far, beyond = self.sticks.hits(row, *projection.rays(page[stick]))
-        nearness[stick], solid[stick] = -far, self.count + 2 * row + beyond
+        nearness[stick], solid[stick] = -far, self.balls + 2 * row + beyond
         return nearness, solid
 
     def nearest(self, near: Neighbours, own: Ints, points: Floats, projection: Projection) -> Ints:

@@ -1,9 +1,9 @@
 """The curves of sticks, and what their own solids hide of them.
 
 A stick meets each of its balls in a *rim*, is halved by its *border*, and has two *lines* as its contour. Where sticks
-as wide as their common ball (a *joint*) meet each other, they do so in the plane in which ``p · u`` of both is equal, in
-an ellipse, the *elbow*: near a joint a point belongs to the stick with the largest ``p · u``, or to the ball if none is
-positive. Every condition on these curves is linear.
+as wide as their common ball (a *joint*) meet each other, they do so in the plane in which ``p · u`` of both is equal,
+in an ellipse, the *elbow*: near a joint a point belongs to the stick with the largest ``p · u``, or to the ball if none
+is positive. Every condition on these curves is linear.
 
 Halves of sticks are solids of their own, numbered after the n spheres: n + 2 k + end for the halves of stick k.
 """
@@ -121,8 +121,10 @@ def _elbow_ends(sticks: StickOccluders) -> tuple[Ints, Ints]:
 
 
 def _elbows(sticks: StickOccluders, one: Ints, other: Ints, count: int) -> Curves:
-    """The ellipses ``c + s (e + g u) cos t + s (f + h u) sin t``, ``g = e · w/(1 − u · w)``, h likewise, in which sticks
-    along u (``second``) and w meet; a × b points along u − w."""
+    """The ellipses ``c + s (e + g u) cos t + s (f + h u) sin t``, ``g = e · w/(1 − u · w)`` and h likewise with f.
+
+    In them sticks along u (``second``) and w (``first``) meet; a × b points along u − w.
+    """
     u, w = sticks.ends.outward[one], sticks.ends.outward[other]
     e, f = perpendicular(u)
     difference = u - w
@@ -166,7 +168,7 @@ def _where(margin: Linear, curve: Ints, reason: int, other: Ints) -> Hidden:
 def _at_joints(
     sticks: StickOccluders, of: StickCurves, rim: Ints, elbow: Ints, line: Ints, count: int
 ) -> list[Hidden]:
-    """What balls and the other sticks of a joint hide: elbows where ``p · u < 0``, and all where another's is larger."""
+    """What balls and other sticks of a joint hide: elbows where ``p · u < 0``, and all where another's is larger."""
     pair, third = _pairs_at_joints(sticks)
     start = offsets(pair, len(rim))
     end = of.end[elbow]

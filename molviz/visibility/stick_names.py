@@ -1,8 +1,9 @@
 """Names of the ends of arcs of sticks, by the same rule as those of spheres.
 
-On a circle or ellipse about an axis, what is hidden beyond a plane of normal g ends towards (a × b) × g. With e towards
-the eye, ``e × u`` is the side of an end whose stick leaves its ball along u: rims end there where they sink behind their
-stick or below their ball, horizons where they come out of the stick. ``u × w`` is that of two sticks of a joint.
+On a circle or ellipse about an axis, what is hidden beyond a plane of normal g ends towards (a × b) × g. With e
+towards the eye, ``e × u`` is the side of an end whose stick leaves its ball along u: rims end there where they sink
+behind their stick or below their ball, horizons where they come out of the stick. ``u × w`` is that of two sticks of a
+joint.
 """
 
 import numpy as np
@@ -30,10 +31,10 @@ def name_stick_ends(
     _write(name, rim & own & (other == second), EDGE, side, second)
     _write(name, rim & own & (other == first) & (kind == SEAM), EDGE, side, second)
     _write(name, rim & own & (other == first) & (kind != SEAM), ENTRY, side, first, second)
-    _write(name, rim & ball, TRIPLE, side ^ (second > other), first, *_sorted(second, other))
+    _write(name, rim & ball, TRIPLE, side ^ (second > other).astype(int), first, *_sorted(second, other))
     _write(name, elbow & own & (other == second), ELBOW, side, second, first)
     _write(name, elbow & own & (other == first), ELBOW, 1 - side, first, second)
-    _write(name, elbow & ball & (other < count), TRIPLE, side ^ (second < first), other, *_sorted(first, second))
+    _write(name, elbow & ball & (other < count), TRIPLE, side ^ (second < first).astype(int), other, *_sorted(first, second))
     _write(name, elbow & ball & (other >= count), TRIPLE, 0 * side, *_sorted(first, second, other))
     _write(name, border & own, HALF, side, first)
     _write(name, horizon & own, EDGE, side, other)

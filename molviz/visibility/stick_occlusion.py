@@ -7,6 +7,7 @@ from molviz.geometry.grid import Neighbours
 from molviz.geometry.intervals import TURN, above
 from molviz.geometry.rows import expand
 from molviz.visibility.curves import Curves
+from molviz.visibility.forms import Linear
 from molviz.visibility.named_arcs import Hidden
 from molviz.visibility.names import FRONT
 from molviz.visibility.occluders.sphere import SphereOccluders
@@ -33,8 +34,8 @@ def _behind(sticks: StickOccluders, curves: Curves, curve: Ints, stick: Ints, co
     An end of one condition counts where the other four hold; between consecutive ones a curve is hidden or not as a
     whole. Where a curve passes behind one of the two lines is a T-junction; elsewhere balls hide it on either side.
     """
-    for condition in (LINES, 3, 4):  # those that most rows fail come first
-        margin = sticks.behind(curves, curve, stick, condition)
+    for most in (LINES, 3, 4):  # those that most rows fail come first
+        margin = sticks.behind(curves, curve, stick, most)
         rows = np.flatnonzero(margin.c + np.hypot(margin.a, margin.b) > 0)
         curve, stick = curve[rows], stick[rows]
     margins = [sticks.behind(curves, curve, stick, condition) for condition in range(CONDITIONS)]
@@ -56,7 +57,7 @@ def _behind(sticks: StickOccluders, curves: Curves, curve: Ints, stick: Ints, co
     return Hidden(curve[row], start[row, column], sweep[row, column], reason, leaves, enters)
 
 
-def _ends(margins: list) -> tuple[Floats, Bools]:
+def _ends(margins: list[Linear]) -> tuple[Floats, Bools]:
     """The end points (m, 10) of the five conditions in [0, 2π), two each, and which of them count."""
     angles, exists = [], []
     for margin in margins:

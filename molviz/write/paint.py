@@ -16,8 +16,8 @@ from molviz.picture.picture import (
     StackedLayer,
     Stops,
     StrokeLayer,
+    offsets_at,
 )
-from molviz.vectors import dot
 from molviz.write.text import number
 
 PLACES = 4  # of numbers in a gradient: colours come back as the same bytes
@@ -59,21 +59,6 @@ def mean_color(gradient: Gradient, points: Floats) -> Color:
     at = offsets_at(gradient, points) if len(points) else np.ones(1)
     red, green, blue = (round(float(np.interp(at, offset, channel).mean())) for channel in zip(*table, strict=True))
     return red, green, blue
-
-
-def offsets_at(gradient: Gradient, points: Floats) -> Floats:
-    """Return the offsets (k,) of a gradient at points (k, 2); ends go on where the result is below 0 or above 1.
-
-    Circle s of a ball has its centre at ``(1 − s) f`` and radius ``s R``. A point f + d lies on it where
-    ``|d + s f|² = s² R²``, whose larger root is ``(d·f + √((d·f)² + (R² − f²) d²)) / (R² − f²)``.
-    """
-    if isinstance(gradient, LinearGradient):
-        along = np.subtract(gradient.end, gradient.start)
-        return np.asarray((points - gradient.start) @ along / (along @ along))
-    focus = np.array(gradient.focus)
-    d, left = points - focus, gradient.radius**2 - focus @ focus
-    product = d @ focus
-    return np.asarray((product + np.sqrt(product**2 + left * dot(d, d))) / left)
 
 
 def shares(color: Color) -> str:

@@ -46,7 +46,7 @@ class StickOccluders(NamedTuple):
     direction: Floats  # (k, 3) unit
     length: Floats  # (k,)
     radius: Floats  # (k,)
-    normals: Floats  # (k, 2, 3) from the axis to the silhouette lines, unit: right and left of the direction on the page
+    normals: Floats  # (k, 2, 3) unit, from the axis to the silhouette lines: right and left of the direction
     facing: Floats  # (k, 3) unit normal of the silhouette plane, towards the eye
     planes: Floats  # (k, 5, 3) a point p is behind Q where ``(p − start) · plane > at`` for all five: two lines,
     at: Floats  # (k, 5) the silhouette plane, two ends
@@ -55,11 +55,13 @@ class StickOccluders(NamedTuple):
     def take(self, rows: Ints) -> "StickOccluders":
         """Return the given sticks, in that order."""
         both = np.stack([2 * rows, 2 * rows + 1], axis=1).ravel()
-        return StickOccluders(*(column[rows] for column in self[:-1]), Ends(*(column[both] for column in self.ends)))
+        ends = Ends(*(column[both] for column in self.ends))  # type: ignore[arg-type]
+        return StickOccluders(*(column[rows] for column in self[:-1]), ends)  # type: ignore[call-arg]
 
     def behind(self, curves: Curves, curve: Ints, stick: Ints, condition: int) -> Linear:
         """Return the function on the curves that is positive where one of the five conditions holds."""
-        return plane_function(curves, curve, self.start[stick], self.planes[stick, condition], self.at[stick, condition])
+        plane, at = self.planes[stick, condition], self.at[stick, condition]
+        return plane_function(curves, curve, self.start[stick], plane, at)
 
     def hits(self, stick: Ints, origin: Floats, ray: Floats) -> tuple[Floats, Bools]:
         """Return how far along unit rays (m, 3) from points (m, 3) sticks are hit, and whether beyond their middles.
@@ -85,10 +87,10 @@ class StickOccluders(NamedTuple):
         u = self.direction[stick]
         toward = points - self.start[stick] - self.radius[stick, None] * self.normals[stick, side]
         sight = points if central else np.tile([0.0, 0.0, 1.0], (len(points), 1))
-        # the point of the line in the plane of the sight: toward − τ u − λ sight = 0, multiplied by sight from both sides
+        # where the line meets the sight: toward − τ u − λ sight = 0, multiplied by the sight
         one, other = np.cross(sight, toward), np.cross(sight, u)
         share = dot(one, other) / dot(other, other) / self.length[stick] - 0.5
-        return np.arccos(np.clip(np.where(side == 1, share, -share), -1.0, 1.0))
+        return np.asarray(np.arccos(np.clip(np.where(side == 1, share, -share), -1.0, 1.0)))
 
 
 def plane_function(curves: Curves, curve: Ints, origin: Floats, normal: Floats, at: Floats) -> Linear:
