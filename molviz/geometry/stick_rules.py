@@ -8,7 +8,8 @@ parallel ones within a cylinder of radius ``reach``):
    ball grows until the rod leaves both balls at once, at most to its space-filling size.
 3. A rod that passes through any other ball is thinned until it passes beside.
 4. Two rods of a ball meet outside it where ``arcsin(s/r) + arcsin(s'/r) > angle``. Equal rods of a ball as wide as
-   they are meet in a plane, and may. Else the ball grows, to three of its widest rod at most; then both are thinned.
+   they are meet in a plane, and may, unless they do so beyond the middle of one of them: then the longer one is left
+   out. Else the ball grows, to three of its widest rod at most; then both are thinned.
 5. Rods that are thinned to less than a fifth, or that pass through a ball or another rod for all that, are left out.
 """
 
@@ -25,6 +26,7 @@ from molviz.vectors import dot
 APART = 1.02  # of the radius at which things would touch: room for what is drawn, and for rounding
 GROWN = 3.0  # a ball for its rods is at most so many times as wide as they are: two equal ones may be 39° apart
 THINNEST = 0.2  # of the radius a rod began with
+FLAT = 1e-12  # 1 − cos θ of rods in one direction
 NEVER = 1e-9  # ångström: atoms nearer than this have no direction between them
 ROUNDING = 1e-9  # of a part of 1, that is 1
 
@@ -72,7 +74,7 @@ def settled(whole: Spheres, radius: Floats, rods: Rods) -> tuple[Floats, Rods, t
     wide = rods.part >= THINNEST
     radius, rods = _joined(center, radius, rods.take(wide))
     rods = seen_rods(center, radius, rods)
-    kept = (rods.part >= THINNEST) & ~_in_the_way(center, radius, rods)
+    kept = (rods.part >= THINNEST) & ~_in_the_way(center, radius, rods) & ~_along_others(center, radius, rods)
     notes = _notes(int(np.sum(kept & (rods.part < 1.0))), int(np.sum(~wide) + np.sum(~kept)))
     return radius, rods.take(kept), notes
 
@@ -226,14 +228,34 @@ def _radius_apart(center: Floats, rods: Rods, one: Ints, other: Ints, ball: Ints
     The inner lines of their outlines, in the plane of both axes at the angle θ, meet at the distance
     ``√(s² + s'² + 2ss' cos θ) / sin θ``, if they do so in front of the ball's centre; else the wider rod says it.
     """
-    far = [rods.first[rod] + rods.second[rod] - ball for rod in (one, other)]
-    u, v = ((center[end] - center[ball]) / lengths(center, ball, end)[:, None] for end in far)
+    u, v = (_outwards(center, rods, rod, ball) for rod in (one, other))
     s, z = rods.reach[one], rods.reach[other]
     cos, sin = dot(u, v), np.linalg.norm(np.cross(u, v), axis=1)
     in_front = (s + z * cos > 0) & (z + s * cos > 0)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         meeting = np.sqrt(s**2 + z**2 + 2.0 * s * z * cos) / sin
     return np.where(in_front, meeting, np.maximum(s, z))
+
+
+def _along_others(center: Floats, radius: Floats, rods: Rods) -> Bools:
+    """Return the rods (m,) of joints that meet a shorter one beyond the middle of either, ``s cot (θ/2)`` far out."""
+    wrong: Bools = np.zeros(len(rods.first), dtype=bool)
+    one, other, ball = rods.meetings()
+    alike = _alike(radius, rods)[ball]
+    one, other, ball = one[alike], other[alike], ball[alike]
+    u, v = (_outwards(center, rods, rod, ball) for rod in (one, other))
+    length = lengths(center, rods.first, rods.second)
+    cosine = np.clip(dot(u, v), -1.0, 1.0)
+    shortest = np.minimum(length[one], length[other])
+    far = APART * rods.reach[one] * np.sqrt((1.0 + cosine) / np.maximum(1.0 - cosine, FLAT)) > shortest / 2
+    wrong[np.where(length[one] > length[other], one, other)[far]] = True
+    return wrong
+
+
+def _outwards(center: Floats, rods: Rods, rod: Ints, ball: Ints) -> Floats:
+    """Return unit vectors (p, 3) along rods, away from their given balls."""
+    far = rods.first[rod] + rods.second[rod] - ball
+    return np.asarray((center[far] - center[ball]) / lengths(center, ball, far)[:, None])
 
 
 # ---- rule 5

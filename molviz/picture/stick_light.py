@@ -9,10 +9,12 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths
 from molviz.picture.cutting import kept_side
+from molviz.picture.ink import in_colors
+from molviz.picture.marks import region_mark
 from molviz.picture.oklab import colors_of, mix
 from molviz.picture.page import Placement
-from molviz.picture.picture import FillLayer, LinearGradient, Mark, Stops, offsets_at
-from molviz.picture.regions import closed_chains, shapes_of
+from molviz.picture.picture import FillLayer, LinearGradient, Stops, offsets_at
+from molviz.picture.regions import closed_chains, shapes_of, stacked
 from molviz.picture.shading import ball_gradients, color_of
 from molviz.picture.style import Light, Style
 from molviz.visibility.map import VisibilityMap
@@ -50,11 +52,11 @@ class StickLight:
         layers, dark, bright = [], fill[self.half], fill[self.half]
         for cosine, opacity in self.light.terminators:
             dark = mix(dark, self.light.dark, opacity)
-            for end in (-1.0, 1.0):
-                layers += self._layer("terminators", self._beyond(cosine, end), dark)
+            sides = stacked([self._beyond(cosine, end) for end in (-1.0, 1.0)])
+            layers += self._layer("terminators on sticks", sides, np.tile(dark, (2, 1)))
         for cosine, opacity in self.light.highlights:
             bright = mix(bright, self.light.bright, opacity)
-            layers += self._layer("highlights", self._between(cosine), bright)
+            layers += self._layer("highlights on sticks", self._between(cosine), bright)
         return layers
 
     def _edges(self, cosine: float) -> tuple[Floats, Floats]:
@@ -88,13 +90,13 @@ class StickLight:
         return self.placement.scale * self.projection.page_points(point) + self.placement.shift
 
     def _layer(self, name: str, paths: Paths, color: Ints) -> list[FillLayer]:
-        """The shapes that are not empty, if any."""
+        """The shapes that are not empty, if any, one for each colour."""
         if not len(paths.arcs.c):
             return []
         full: Bools = np.diff(paths.shape_start) > 0
         kept = np.append(paths.shape_start[:-1][full], paths.shape_start[-1])
-        colors = colors_of(color[full])
-        return [FillLayer(name, paths._replace(shape_start=kept), colors, [Mark("")] * len(colors))]
+        merged, distinct = in_colors(paths._replace(shape_start=kept), color[full])
+        return [FillLayer(name, merged, colors_of(distinct), [region_mark("", name)] * len(distinct))]
 
     def gradients(self, fill: Ints, style: Style) -> tuple[list[LinearGradient], Floats]:
         """Return the shading of the halves of the colours ``fill`` (halves, 3), and their origins on the page."""

@@ -104,8 +104,8 @@ def map_in_view(
     """
     spheres = solids.spheres
     number = np.arange(solids.balls + len(solids.sticks.ends.sphere))
-    label = number if label is None else label[wanted]
-    creases, hidden = _creases_between(boundary, wanted, label, view)
+    label = solids.seen_halves(number) if label is None else label[wanted]
+    creases, hidden = _creases_between(boundary, wanted, label, view, solids.sticks)
     horizons = spheres.horizons()
     discs = discs_of(horizons, projection)
     near = overlaps(discs)
@@ -153,13 +153,22 @@ def _with_sticks(
     ]
 
 
-def _creases_between(boundary: Boundary, wanted: Ints, label: Ints, view: View) -> tuple[Curves, Hidden]:
-    """One curve for each free arc of a crease between wanted spheres of different labels, and what balls hide of it."""
+def _creases_between(
+    boundary: Boundary, wanted: Ints, label: Ints, view: View, sticks: StickOccluders
+) -> tuple[Curves, Hidden]:
+    """One curve for each free arc of a crease between wanted spheres of different labels, and what balls hide of it.
+
+    Creases of balls with a stick between them lie inside it.
+    """
     number = np.full(len(boundary.spheres.radius) + 1, -1)  # row −1 stays −1
     number[wanted] = np.arange(len(wanted))
     circle = boundary.arcs.circle
     first, second = number[boundary.circles.first[circle]], number[boundary.circles.second[circle]]
     arc = np.flatnonzero((first >= 0) & (second >= 0) & (label[first] != label[second]))
+    if len(sticks.length):
+        pair, joined = (np.minimum(*both) * len(number) + np.maximum(*both) for both in (
+            (first[arc], second[arc]), (sticks.ends.sphere[::2], sticks.ends.sphere[1::2])))  # fmt: skip
+        arc = arc[~np.isin(pair, joined)]
     hidden = outside_free_arcs(boundary, arc)
     creases = creases_in_view(boundary.circles.take(circle[arc]), view)
     return (

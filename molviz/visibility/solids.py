@@ -33,6 +33,13 @@ class Solids(NamedTuple):
         """Return the numbers of spheres and sticks, n + k, of solids (m,), which count the halves of sticks."""
         return np.where(solid < self.balls, solid, (solid + self.balls) // 2)
 
+    def seen_halves(self, solid: Ints) -> Ints:
+        """Return the solids (m,), of a stick whose middle lies in a ball the half that is outside of it instead."""
+        stick = np.maximum(solid - self.balls, 0) >> 1
+        middle = np.append(self.sticks.middle(), 0.0)[stick]
+        hidden = (solid >= self.balls) & np.isinf(middle)
+        return np.where(hidden, self.balls + 2 * stick + (middle < 0), solid)
+
     def overlaps(self, projection: Projection, view: View) -> Neighbours:
         """Return which of n spheres and k sticks may overlap each on the page."""
         discs = discs_of(self.spheres.horizons(), projection)

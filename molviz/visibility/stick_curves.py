@@ -80,7 +80,7 @@ def borders(sticks: StickOccluders, count: int) -> Curves:
 
 def _halfway(sticks: StickOccluders) -> Ints:
     """The sticks whose middles lie in neither ball."""
-    return np.flatnonzero(np.all(sticks.ends.reach.reshape(-1, 2) < sticks.length[:, None] / 2, axis=1))
+    return np.flatnonzero(np.isfinite(sticks.middle()))
 
 
 def lines(sticks: StickOccluders, count: int) -> Curves:

@@ -56,7 +56,8 @@ class StickOccluders(NamedTuple):
         """Return the given sticks, in that order."""
         both = np.stack([2 * rows, 2 * rows + 1], axis=1).ravel()
         ends = Ends(*(column[both] for column in self.ends))  # type: ignore[arg-type]
-        return StickOccluders(*(column[rows] for column in self[:-1]), ends)  # type: ignore[call-arg]
+        columns = (column[rows] for column in self[:-1])
+        return StickOccluders(*columns, ends)  # type: ignore[call-arg, arg-type]
 
     def behind(self, curves: Curves, curve: Ints, stick: Ints, condition: int) -> Linear:
         """Return the function on the curves that is positive where one of the five conditions holds."""
@@ -79,7 +80,12 @@ class StickOccluders(NamedTuple):
             far = rc / rr - np.sqrt((self.radius[stick] ** 2 - dot(beside, beside)) / rr)
         along = dot(ray, u) * far - dot(c, u)
         hit = np.isfinite(far) & (along >= 0) & (along <= self.length[stick])
-        return np.where(hit, far, np.inf), np.asarray(along > self.length[stick] / 2)
+        return np.where(hit, far, np.inf), np.asarray(along > self.middle()[stick])
+
+    def middle(self) -> Floats:
+        """Return how far along (k,) the halves meet: infinitely far where a ball holds the middle."""
+        reach = self.ends.reach.reshape(-1, 2) >= self.length[:, None] / 2
+        return np.where(reach[:, 0], -np.inf, np.where(reach[:, 1], np.inf, self.length / 2))
 
     def line_angle(self, contour: Ints, points: Floats, central: bool) -> Floats:
         """Return the angle on silhouette line ``contour`` (two for each stick) that is seen where points (m, 3) are."""
