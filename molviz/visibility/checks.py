@@ -9,7 +9,6 @@ from molviz.geometry.intervals import Intervals, above, gaps
 from molviz.geometry.planar_map import euler_defect, loop_areas
 from molviz.geometry.rows import expand
 from molviz.vectors import dot
-from molviz.visibility.curves import SEAM
 from molviz.visibility.eye import occluders_of, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.occlusion import discs_of, overlaps
@@ -66,8 +65,8 @@ def _union_of_discs(view_map: VisibilityMap, projection: Projection) -> float:
 def arcs_beside_wrong_faces(view_map: VisibilityMap, view: View) -> Ints:
     """Return the arcs beside whose middle the nearest surface is not the face that the map names.
 
-    Arcs that are too short to step beside are left out, points at which two surfaces are closer than the step, and
-    seams of joints, of which a strip far thinner than the step may be all that shows.
+    Arcs that are too short to step beside are left out, points at which two surfaces are closer than the step, and rims
+    of joints and of sticks beside the line of centres.
     """
     arcs = view_map.arcs
     middle = arcs.middle()
@@ -75,8 +74,7 @@ def arcs_beside_wrong_faces(view_map: VisibilityMap, view: View) -> Ints:
     size = np.linalg.norm(along, axis=1)
     step = SIDE_STEP * size * np.minimum(np.abs(arcs.sweep), 1.0)
     curve = view_map.curve_arcs.curve
-    of_joint = (view_map.curves.kind[curve] == SEAM) & (view_map.curves.first[curve] < len(view_map.spheres.radius))
-    rows = np.flatnonzero((step > LEAST_STEP * view_map.spheres.radius.max()) & ~of_joint)
+    rows = np.flatnonzero((step > LEAST_STEP * view_map.spheres.radius.max()) & ~_near_rims(view_map)[curve])
     left = np.column_stack([-along[rows, 1], along[rows, 0]]) / size[rows, None] * step[rows, None]
     own = view_map.curves.first[view_map.curve_arcs.curve[rows]]
     wrong = np.zeros(len(rows), dtype=bool)
@@ -85,6 +83,14 @@ def arcs_beside_wrong_faces(view_map: VisibilityMap, view: View) -> Ints:
         margin, nearest = _nearest_surface(view_map, own, points, view)
         wrong |= _differ(view_map, nearest, face[rows]) & (margin > CLEAR * step[rows])
     return rows[wrong]
+
+
+def _near_rims(view_map: VisibilityMap) -> Bools:
+    """Which curves are rims beside which a strip far thinner than the step may be all that shows of a solid."""
+    count, ends = len(view_map.spheres.radius), view_map.sticks.ends
+    close = np.append(ends.joint | (dot(ends.offset, ends.offset) > 0), False)
+    first, second = view_map.curves.first, view_map.curves.second
+    return np.asarray((first < count) & (second >= count) & close[np.maximum(second - count, -1)])
 
 
 def _differ(view_map: VisibilityMap, one: Ints, other: Ints) -> Bools:

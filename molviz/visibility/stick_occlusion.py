@@ -34,22 +34,23 @@ def _behind(sticks: StickOccluders, curves: Curves, curve: Ints, stick: Ints, co
     An end of one condition counts where the other four hold; between consecutive ones a curve is hidden or not as a
     whole. Where a curve passes behind one of the two lines is a T-junction; elsewhere balls hide it on either side.
     """
-    for most in (LINES, 3, 4):  # those that most rows fail come first
-        margin = sticks.behind(curves, curve, stick, most)
+    for some in (LINES, 3, 4, 0, 1):  # those that most rows fail come first
+        margin = sticks.behind(curves, curve, stick, some)
         rows = np.flatnonzero(margin.c + np.hypot(margin.a, margin.b) > 0)
         curve, stick = curve[rows], stick[rows]
     margins = [sticks.behind(curves, curve, stick, condition) for condition in range(CONDITIONS)]
     angle, real = _ends(margins)
-    angle = np.where(real, angle, np.nan)
+    rows = np.flatnonzero(real.any(axis=1) | _holds_at(margins, np.zeros((len(curve), 1)))[:, 0])
+    margins = [Linear(*(column[rows] for column in margin)) for margin in margins]
+    curve, stick, real, angle = curve[rows], stick[rows], real[rows], np.where(real[rows], angle[rows], np.nan)
     order = np.argsort(angle, axis=1)
     start = np.take_along_axis(angle, order, axis=1)
     amount = np.sum(real, axis=1)
     last = np.arange(start.shape[1]) == amount[:, None] - 1
     sweep = np.where(last, start[:, :1] + TURN, np.roll(start, -1, axis=1)) - start
     start[amount == 0, 0], sweep[amount == 0, 0] = 0.0, TURN
-    middle = start + sweep / 2
-    hidden = np.all([margin.at(middle) > 0 for margin in margins], axis=0)
-    row, column = np.nonzero(hidden)
+    most = max(int(amount.max(initial=1)), 1)
+    row, column = np.nonzero(_holds_at(margins, (start + sweep / 2)[:, :most]))
     after = np.where(column + 1 < np.maximum(amount, 1)[row], column + 1, 0)
     condition = order // 2
     enters, leaves = (_contour(condition[row, place], stick[row], count) for place in (column, after))
@@ -66,11 +67,22 @@ def _ends(margins: list[Linear]) -> tuple[Floats, Bools]:
         angles += [middle - half, middle + half]
         exists += [cuts, cuts]
     angle, real = np.mod(np.stack(angles, axis=1), TURN), np.stack(exists, axis=1)
+    cosine, sine = np.cos(angle), np.sin(angle)
     for condition, margin in enumerate(margins):
-        holds = margin.at(angle) > 0
+        holds = _at(margin, cosine, sine) > 0
         holds[:, 2 * condition : 2 * condition + 2] = True
         real &= holds
     return angle, real
+
+
+def _holds_at(margins: list[Linear], angle: Floats) -> Bools:
+    """Whether all conditions hold at angles (m, k)."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return np.asarray(np.all([_at(margin, cosine, sine) > 0 for margin in margins], axis=0))
+
+
+def _at(margin: Linear, cosine: Floats, sine: Floats) -> Floats:
+    return np.asarray(margin.a[:, None] * cosine + margin.b[:, None] * sine + margin.c[:, None])
 
 
 def _contour(condition: Ints, stick: Ints, count: int) -> Ints:
