@@ -79,3 +79,19 @@ def _into_sticks(spheres: Spheres, sticks: Sticks, origin: np.ndarray, ray: np.n
         for low, high in ((0, length / 2), (length / 2, length)):
             rows.append(np.where((along >= low) & (along < high), far, np.inf)[None])
     return rows
+
+
+def parallel_bonds(seed: int, count: int) -> tuple[Spheres, Sticks]:
+    """Single, double and triple bonds between balls that hold them."""
+    centers, bonds = random_skeleton(seed, count)
+    rng = np.random.default_rng(seed + 2)
+    rows = []
+    for first, second in bonds:
+        u = (centers[second] - centers[first]) / np.linalg.norm(centers[second] - centers[first])
+        across = np.cross(u, rng.normal(size=3))
+        across /= np.linalg.norm(across)
+        for offset in ([0.0], [-0.12, 0.12], [-0.18, 0.0, 0.18])[int(rng.integers(3))]:
+            rows.append((first, second, 0.06, offset * across))
+    first, second, radius, offset = zip(*rows, strict=True) if rows else ([], [], [], np.empty((0, 3)))
+    spheres = Spheres(centers, rng.uniform(0.38, 0.5, len(centers)))
+    return spheres, Sticks(np.array(first, int), np.array(second, int), np.array(radius, float), np.array(offset))
