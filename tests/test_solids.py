@@ -55,6 +55,13 @@ def test_a_bond_of_two_representations_has_the_thinner_stick() -> None:
     assert solids(far, [[0, 1]], [SPACEFILL, STICKS]).sticks.radius.tolist() == [0.2]
 
 
+def test_sticks_among_some_balls_are_numbered_as_these_are() -> None:
+    chain = solids([[3.0 * k, 0, 0] for k in range(4)], [[0, 1], [1, 2], [2, 3]]).sticks
+    some = chain.among(np.array([3, 2, 0]), 4)
+    assert (some.first.tolist(), some.second.tolist(), some.radius.tolist()) == ([1], [0], [0.15])
+    assert chain.take(np.array([2, 0])).first.tolist() == [2, 0]
+
+
 def test_sticks_of_which_nothing_is_seen_are_left_out() -> None:
     assert len(solids([[0, 0, 0], [1.5, 0, 0]], [[0, 1]], [SPACEFILL, STICKS]).sticks.radius) == 0
     assert len(solids([[0, 0, 0], [1.5, 0, 0]], [[0, 1]], sizes=Sizes(0.6)).sticks.radius) == 0
