@@ -126,6 +126,21 @@ def test_a_double_bond_whose_balls_meet_is_one_stick() -> None:
     assert len(made.sticks.radius) == 1 and not made.sticks.offset.any()
 
 
+@pytest.mark.parametrize(("order", "count"), [(1.5, 2), (2, 2), (3, 3)])
+def test_parallel_sticks_end_near_their_true_ends_or_are_one(order: float, count: int) -> None:
+    """By the distance of the plane's ellipse from the ball, all around each stick."""
+    oxygen, far = 1.52, [[0, 0, 0], [1.2, 0, 0]]
+    assert len(solids(far, [[0, 1]], order=[order], radius=[1.7, oxygen]).sticks.radius) == count
+    for scale in np.linspace(0.1, 0.39, 30):
+        made = solids(far, [[0, 1]], order=[order], radius=oxygen, sizes=Sizes(float(scale)))
+        turn, r = np.linspace(0, 2 * np.pi, 100), made.balls.radius[0]
+        for s, offset in zip(made.sticks.radius, made.sticks.offset, strict=True):
+            o = float(np.linalg.norm(offset))
+            true = np.sqrt(r**2 - o**2 - s**2 - 2 * o * s * np.cos(turn))
+            depth = np.sqrt(r**2 - o**2 - s**2)
+            assert np.abs(true - (depth - o * s / depth * np.cos(turn))).max() < 1.1e-3
+
+
 # ---- what sticks may not meet
 
 

@@ -107,11 +107,10 @@ def seen_rods(center: Floats, radius: Floats, rods: Rods) -> Rods:
 
 
 def _holding(radius: Floats, rods: Rods) -> Floats:
-    """Return the radii of balls as wide as their rods; wider, where a rod is several sticks beside the centre."""
+    """Return the radii of balls as wide as their rods."""
     held = radius.copy()
-    need = np.where(rods.order == 1.0, rods.reach, APART * rods.reach)
     for ball in (rods.first, rods.second):
-        np.maximum.at(held, ball, need)
+        np.maximum.at(held, ball, rods.reach)
     return held
 
 
