@@ -121,9 +121,10 @@ def test_the_thinner_stick_of_an_aromatic_bond_is_inside_the_ring() -> None:
     assert outer.sum() == 6 and (outward[outer] > 0).all()
 
 
-def test_a_double_bond_whose_balls_meet_is_one_stick() -> None:
-    made = solids([[0, 0, 0], [1.2, 0, 0]], [[0, 1]], order=[2], sizes=Sizes(0.354))
-    assert len(made.sticks.radius) == 1 and not made.sticks.offset.any()
+def test_a_double_bond_of_a_ball_that_reaches_its_middle_is_one_stick() -> None:
+    for radius, count in (([1.7, 1.2], 1), ([1.6, 1.6], 2)):
+        made = solids([[0, 0, 0], [1.2, 0, 0]], [[0, 1]], order=[2], radius=radius, sizes=Sizes(0.36))
+        assert len(made.sticks.radius) == count and made.sticks.offset.any() == (count > 1)
 
 
 @pytest.mark.parametrize(("order", "count"), [(1.5, 2), (2, 2), (3, 3)])

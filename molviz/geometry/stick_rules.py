@@ -94,10 +94,10 @@ def lengths(center: Floats, first: Ints, second: Ints) -> Floats:
 def seen_rods(center: Floats, radius: Floats, rods: Rods) -> Rods:
     """Return the rods of which anything lies outside the balls at their ends.
 
-    Several sticks of one bond become a single one where the two balls meet, or nearly so: they would cut each apart.
+    Several sticks of one bond become a single one where a ball reaches the middle, and would cut their halves aslant.
     """
     length = lengths(center, rods.first, rods.second)
-    meet = (rods.order != 1.0) & (APART * (radius[rods.first] + radius[rods.second]) > length)
+    meet = (rods.order != 1.0) & (2.0 * APART * np.maximum(radius[rods.first], radius[rods.second]) > length)
     rods = rods._replace(reach=np.where(meet, rods.radius, rods.reach), order=np.where(meet, 1.0, rods.order))
     near, far = rods.leave(radius)
     return rods.take(near + far < length)
