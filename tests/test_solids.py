@@ -55,6 +55,13 @@ def test_a_bond_of_two_representations_has_the_thinner_stick() -> None:
     assert solids(far, [[0, 1]], [SPACEFILL, STICKS]).sticks.radius.tolist() == [0.2]
 
 
+def test_sticks_among_some_balls_are_numbered_as_these_are() -> None:
+    chain = solids([[3.0 * k, 0, 0] for k in range(4)], [[0, 1], [1, 2], [2, 3]]).sticks
+    some = chain.among(np.array([3, 2, 0]), 4)
+    assert (some.first.tolist(), some.second.tolist(), some.radius.tolist()) == ([1], [0], [0.15])
+    assert chain.take(np.array([2, 0])).first.tolist() == [2, 0]
+
+
 def test_sticks_of_which_nothing_is_seen_are_left_out() -> None:
     assert len(solids([[0, 0, 0], [1.5, 0, 0]], [[0, 1]], [SPACEFILL, STICKS]).sticks.radius) == 0
     assert len(solids([[0, 0, 0], [1.5, 0, 0]], [[0, 1]], sizes=Sizes(0.6)).sticks.radius) == 0
@@ -114,9 +121,25 @@ def test_the_thinner_stick_of_an_aromatic_bond_is_inside_the_ring() -> None:
     assert outer.sum() == 6 and (outward[outer] > 0).all()
 
 
-def test_a_double_bond_whose_balls_meet_is_one_stick() -> None:
-    made = solids([[0, 0, 0], [1.2, 0, 0]], [[0, 1]], order=[2], sizes=Sizes(0.354))
-    assert len(made.sticks.radius) == 1 and not made.sticks.offset.any()
+def test_a_double_bond_of_a_ball_that_reaches_its_middle_is_one_stick() -> None:
+    for radius, count in (([1.7, 1.2], 1), ([1.6, 1.6], 2)):
+        made = solids([[0, 0, 0], [1.2, 0, 0]], [[0, 1]], order=[2], radius=radius, sizes=Sizes(0.36))
+        assert len(made.sticks.radius) == count and made.sticks.offset.any() == (count > 1)
+
+
+@pytest.mark.parametrize(("order", "count"), [(1.5, 2), (2, 2), (3, 3)])
+def test_parallel_sticks_end_near_their_true_ends_or_are_one(order: float, count: int) -> None:
+    """By the distance of the plane's ellipse from the ball, all around each stick."""
+    oxygen, far = 1.52, [[0, 0, 0], [1.2, 0, 0]]
+    assert len(solids(far, [[0, 1]], order=[order], radius=[1.7, oxygen]).sticks.radius) == count
+    for scale in np.linspace(0.1, 0.39, 30):
+        made = solids(far, [[0, 1]], order=[order], radius=oxygen, sizes=Sizes(float(scale)))
+        turn, r = np.linspace(0, 2 * np.pi, 100), made.balls.radius[0]
+        for s, offset in zip(made.sticks.radius, made.sticks.offset, strict=True):
+            o = float(np.linalg.norm(offset))
+            true = np.sqrt(r**2 - o**2 - s**2 - 2 * o * s * np.cos(turn))
+            depth = np.sqrt(r**2 - o**2 - s**2)
+            assert np.abs(true - (depth - o * s / depth * np.cos(turn))).max() < 1.1e-3
 
 
 # ---- what sticks may not meet

@@ -3,15 +3,15 @@
 A ball-and-stick ball is a part of the space-filling ball, a ball of sticks alone as wide as they are: all its sticks
 then meet in planes. A bond has the thinner stick of its two ends' representations, and one with a space-filling atom
 the stick of its other end. Double and triple bonds of ball-and-stick atoms are as many parallel sticks, in the plane of
-the neighbours; aromatic ones a stick and, inside the ring, a thinner one. What sticks may not do, meet anything but
-their own two balls, is the matter of ``molviz.geometry.stick_rules``.
+the neighbours; aromatic ones a stick and, inside the ring, a thinner one; all single where the balls are too small for
+several. What sticks may not do, meet anything but their own balls, is the matter of ``molviz.geometry.stick_rules``.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints, Strings
+from molviz.arrays import Bools, Floats, Ints, Strings
 from molviz.geometry.rows import expand
 from molviz.geometry.stick_rules import Rods, lengths, settled
 from molviz.model.bonds import AROMATIC, Bonds
@@ -22,6 +22,7 @@ from molviz.vectors import dot
 
 LONGEST = 6.0  # ångström, above the bond of Cs2: a longer one joins atoms in different cells of a crystal
 MOST_STICKS = 60  # of one atom; one of more is no atom, and looking at all pairs of its sticks takes a while
+SLANT = 0.006  # of a stick's radius, by which parallel ones may miss their true ends: 1e-3 Å, nothing that can be seen
 FAINT = 1e-12  # weight of the direction that a bond's sticks lie in where no neighbour says one
 # Sticks of a bond of each order, as parts of the radius of a single one: radius, and offset from the line of centres.
 # Between two of them is a gap that can be seen, and together they are at most one and a half times as wide.
@@ -69,13 +70,28 @@ def _rods(spheres: Spheres, style: Strings, bonds: Bonds, sizes: Sizes) -> tuple
     degree = np.bincount(bonds.atoms[wanted].ravel(), minlength=len(style))
     crowded = np.maximum(degree[first], degree[second]) > MOST_STICKS
     unfit = wanted & (crowded | (lengths(spheres.center, first, second) > LONGEST))
-    balls = (style[first] == BALL_AND_STICK) & (style[second] == BALL_AND_STICK)
-    order = np.where(balls & np.isin(bonds.order, list(_PARALLEL)), bonds.order, 1.0)
+    several = (style[first] == BALL_AND_STICK) & (style[second] == BALL_AND_STICK)
+    balls = sizes.ball_scale * np.minimum(spheres.radius[first], spheres.radius[second])
+    order = np.where(several & _end_in_planes(bonds.order, radius, balls), bonds.order, 1.0)
     reach = radius * _reach(order)
     count = int(np.sum(unfit))
     notes = (f"{count} bonds longer than {LONGEST:g} Å, or of atoms with more than {MOST_STICKS}, are not drawn",)
     rods = Rods(first, second, radius, reach, order, np.ones(len(order)))
     return rods.take(wanted & ~unfit), notes if count else ()
+
+
+def _end_in_planes(order: Floats, radius: Floats, balls: Floats) -> Bools:
+    """Return which bonds (m,) may have several sticks, of a single stick's radius (m,) and the lesser ball's (m,).
+
+    A stick of radius s at the offset o ends in a plane near to its true end on a ball of radius r; it misses that by
+    about ``(os)² / 2τ³`` at most, ``τ² = r² − o² − s²``.
+    """
+    near = np.isin(order, list(_PARALLEL))
+    for one, sticks in _PARALLEL.items():
+        for s, o in sticks:
+            depth = np.sqrt(np.maximum(balls**2 - (o**2 + s**2) * radius**2, 0.0))
+            near &= (order != one) | ((o * s) ** 2 * radius**3 <= 2.0 * SLANT * depth**3)
+    return near
 
 
 def _reach(order: Floats) -> Floats:

@@ -96,10 +96,10 @@ def lengths(center: Floats, first: Ints, second: Ints) -> Floats:
 def seen_rods(center: Floats, radius: Floats, rods: Rods) -> Rods:
     """Return the rods of which anything lies outside the balls at their ends.
 
-    Several sticks of one bond become a single one where the two balls meet, which would cut them one by one.
+    Several sticks of one bond become a single one where a ball reaches the middle, and would cut their halves aslant.
     """
     length = lengths(center, rods.first, rods.second)
-    meet = (rods.order != 1.0) & (radius[rods.first] + radius[rods.second] >= length)
+    meet = (rods.order != 1.0) & (2.0 * APART * np.maximum(radius[rods.first], radius[rods.second]) > length)
     rods = rods._replace(reach=np.where(meet, rods.radius, rods.reach), order=np.where(meet, 1.0, rods.order))
     near, far = rods.leave(radius)
     return rods.take(near + far < length)
@@ -109,11 +109,10 @@ def seen_rods(center: Floats, radius: Floats, rods: Rods) -> Rods:
 
 
 def _holding(radius: Floats, rods: Rods) -> Floats:
-    """Return the radii of balls as wide as their rods; wider, where a rod is several sticks beside the centre."""
+    """Return the radii of balls as wide as their rods."""
     held = radius.copy()
-    need = np.where(rods.order == 1.0, rods.reach, APART * rods.reach)
     for ball in (rods.first, rods.second):
-        np.maximum.at(held, ball, need)
+        np.maximum.at(held, ball, rods.reach)
     return held
 
 
