@@ -27,7 +27,7 @@ def carbon_lightness(entity: int, tint: int) -> float:
 
 
 def test_haemoglobin() -> None:
-    """Two pairs of copies, all touching: copies differ; the rear is lighter, but darker where it would look like paper."""
+    """Two pairs of copies, all touching: copies differ; the rear is lighter, darker if it would look like paper."""
     contacts = [(a, b, 1.0) for a, b in itertools.combinations(range(4), 2)]
     alpha, beta, other_alpha, other_beta = tints([0, 1, 0, 1], contacts, [3.0, -1.0, 1.0, 2.0])
     assert carbon_lightness(0, other_alpha) - carbon_lightness(0, alpha) >= 8

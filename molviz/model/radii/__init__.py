@@ -16,7 +16,7 @@ from molviz.model.elements import symbol_of
 from molviz.model.molecule import Molecule
 
 TABLES = {
-    "bondi": "van der Waals radii, Bondi 1964 completed by Mantina et al. 2009, metals by Batsanov 2001",
+    "bondi": "van der Waals radii: Bondi 1964, then Mantina et al. 2009, metals Batsanov 2001",
     "mantina": "van der Waals radii of the main group, Mantina et al. 2009",
     "alvarez": "van der Waals radii, Alvarez 2013",
     "covalent": "covalent radii, Cordero et al. 2008",
@@ -26,7 +26,7 @@ TABLES = {
 COMPLETING = (*TABLES, "batsanov")  # what a table may be completed by
 DEFAULT = "bondi"
 OWN = "file"  # no table, but the radii that the file itself has
-OWN_SOURCE = "PQR and .xyzr files, a radius for each atom"
+OWN_SOURCE = "PQR and .xyzr files (a radius for each atom)"
 GUESS = 2.0  # ångström, where the table has nothing: about the mean of all metals that it has
 
 
@@ -155,7 +155,7 @@ def _completing(tables: object, name: str) -> list[RadiiTable]:
     for one in names:
         if one not in COMPLETING:
             raise OptionError(f"completed_by is {one!r}; expected one of {', '.join(COMPLETING)}", name)
-    return [_published(one) for one in names]
+    return [_published(str(one)) for one in names]
 
 
 def _published(name: str) -> RadiiTable:
