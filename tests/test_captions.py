@@ -219,3 +219,16 @@ def test_a_label_stays_on_the_page() -> None:
     left = text.x - {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor] * text_width(text.text, text.size)
     assert left >= 0 and left + text_width(text.text, text.size) <= picture.width and 0 < text.y < picture.height
     assert text.text == "Fe in the middle of it all"
+
+
+def test_what_means_nothing_or_is_hidden_is_told() -> None:
+    balls = b"3\n\nC 0 0 0\nFe 0 0 -1\nO 9 0 0\n"
+    loaded = load("three.xyz", InputOptions(), balls)[0]
+    asked = ("element Zn=gone", "element Fe", "element O=seen")
+    request = DrawRequest(DrawOptions(TIDE), (("element N", (9, 9, 9)), ("element C", (8, 8, 8))), asked)
+    wide = loaded._replace(spheres=loaded.spheres._replace(radius=np.array([3.0, 1.0, 1.0])))
+    assert drawing_of(wide, request, ViewOptions("file")).notes == (
+        "three.xyz: color 'element N' means no atom that is drawn",
+        "three.xyz: label 'element Zn' means no atom that is drawn",
+        "three.xyz: label 'element Fe' means atoms that are hidden",
+    )
