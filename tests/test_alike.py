@@ -126,3 +126,16 @@ def test_shaded_balls_share_their_gradients() -> None:
     """One for each colour and radius, not for each ball."""
     drawing = drawn("1hpv.pdb.gz", "shaded")
     assert drawing.visible > 500 and drawing.svg().count("<radialGradient") < 30
+
+
+@pytest.mark.parametrize("style", ["shaded", "goodsell", "flat"])
+def test_drawings_in_one_web_page_keep_their_own_colours(style: str) -> None:
+    """Gradients, clips and classes of one are not found by the other; the command that drew it changes nothing."""
+    found = []
+    for name in ("caffeine.xyz", "1hpv.pdb.gz"):
+        svg = drawn(name, style).svg()
+        referred = set(re.findall(r'(?:url\(|href=")#([^")]+)', svg))
+        rules = set(re.findall(r"\.([a-z]\w*)\{", svg))
+        assert referred <= set(re.findall(r' id="([^"]+)"', svg)) and (referred or rules)
+        found.append(referred | rules)
+    assert not found[0] & found[1]
