@@ -84,7 +84,7 @@ class MapComposer:
 
     def legend(self) -> Ramp | Swatches:
         """Return what explains the colours."""
-        return legend_of(self.subject, self.options, self.subject.colors(self.options, self.no_tints).fill)
+        return legend_of(self.subject, self.options, self.subject.colors(self.options, self.shown_tints).fill)
 
     def labels(self) -> tuple[list[Label], Floats]:
         """Return the labels, and the discs x, y, r that they stay off."""
@@ -98,6 +98,11 @@ class MapComposer:
     def no_tints(self) -> Ints:
         """The tints of chains that do not touch."""
         return np.zeros(len(self.subject.entities.chain), dtype=np.int64)
+
+    @property
+    def shown_tints(self) -> Ints:
+        """The tints that the scheme of colours has."""
+        return self.tints if self.options.color_by == "entity" else self.no_tints
 
     def layers(self) -> list[Layer]:
         """Return all layers in painting order: regions, shade, light, lines."""
@@ -130,8 +135,7 @@ class MapComposer:
     @cached_property
     def looks(self) -> Looks:
         """The colours of each sphere."""
-        tint = self.tints if self.options.color_by == "entity" else self.no_tints
-        colors = self.subject.colors(self.options, tint).take(self.subject.atom)
+        colors = self.subject.colors(self.options, self.shown_tints).take(self.subject.atom)
         group = groups(self.subject.molecule, self.subject.entities)[self.subject.atom]
         if self.options.is_mask:
             return Looks(*colors, group, np.zeros(len(group)))
@@ -320,8 +324,7 @@ def alike_with(seen: VisibilityMap | Pieces, view: View, subject: Subject, optio
     if isinstance(seen, Pieces):
         return Alike(_around_pieces(subject, options).free, values=subject.bounds)
     composer = MapComposer(seen, view, subject, options)
-    tints = composer.tints.tolist() if options.color_by == "entity" else composer.no_tints.tolist()
-    tint = dict(zip(subject.entities.chain.tolist(), tints, strict=True))
+    tint = dict(zip(subject.entities.chain.tolist(), composer.shown_tints.tolist(), strict=True))
     return Alike(composer.furnished.free, depths(seen, view, composer.seen), tint, subject.bounds)
 
 
