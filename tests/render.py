@@ -86,6 +86,14 @@ def seen_by_ghostscript(document: bytes, dpi: float) -> np.ndarray:
     return np.asarray(Image.open(io.BytesIO(done.stdout)).convert("RGB"))
 
 
+def seen_by_cairo(pdf: bytes, dpi: float) -> np.ndarray:
+    """Return page one of a PDF as (h, w, 3) bytes, anti-aliased, as readers show it that use cairo with poppler."""
+    command = ["pdftocairo", "-r", f"{dpi}", "-png", "-singlefile", "-", "-"]
+    done = subprocess.run(command, input=pdf, capture_output=True, check=True)
+    assert not done.stderr, done.stderr.decode(errors="replace")
+    return np.asarray(Image.open(io.BytesIO(done.stdout)).convert("RGB"))
+
+
 def seen_by_poppler(pdf: bytes, dpi: float) -> np.ndarray:
     """Return page one of a PDF as (h, w, 3) bytes, anti-aliased."""
     done = subprocess.run(["pdftoppm", "-r", f"{dpi}", "-png", "-"], input=pdf, capture_output=True, check=True)

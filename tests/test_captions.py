@@ -16,6 +16,7 @@ from molviz.picture.options import MOST_CEL, DrawOptions, Labelled, Painted, Sub
 from molviz.picture.palette import load_palette
 from molviz.picture.picture import TextLayer
 from molviz.picture.style import load_style
+from molviz.picture.tints import tinted
 from molviz.pipeline.draw import DrawRequest, color_values, drawing_of, labelled_of
 from molviz.pipeline.inputs import InputOptions, Loaded, load
 from molviz.pipeline.views import ViewOptions
@@ -87,12 +88,21 @@ def test_legends_name_what_there_is_in_order_of_appearance(scheme: str, names: l
 
 def test_legends_show_the_colours_of_the_scheme() -> None:
     colors = dict(legend("chain").entries)
-    assert [colors[name] for name in "BAD"] == list(TIDE.chain[:3])
-    assert dict(legend("element").entries)["Fe"] == load_style("flat").colors.element["Fe"]
-    assert dict(legend("residue").entries)["TRP"] == load_style("flat").colors.residue["TRP"]
+    assert [colors[name] for name in "BAD"] == [(color,) for color in TIDE.chain[:3]]
+    assert dict(legend("element").entries)["Fe"] == (load_style("flat").colors.element["Fe"],)
+    assert dict(legend("residue").entries)["TRP"] == (load_style("flat").colors.residue["TRP"],)
     entities = dict(legend("entity").entries)
-    assert entities["chains B, A"] == TIDE.entity[0].carbon and entities["chain D"] == TIDE.entity[1].carbon
-    assert entities["Zn"] == TIDE.metal
+    assert entities["chains B, A"] == (TIDE.entity[0].carbon,) and entities["chain D"] == (TIDE.entity[1].carbon,)
+    assert entities["Zn"] == (TIDE.metal,)
+
+
+def test_an_entity_in_several_tints_has_them_all_in_order_of_its_chains() -> None:
+    about, options = subject(scheme="entity"), settled("entity")
+    fill = about.colors(options, np.array([1, 0, 0])).fill
+    found = legend_of(about, options, fill)
+    assert isinstance(found, Swatches)
+    lighter = tuple(tinted(TIDE.entity[0], TIDE.tint)[1, 0].tolist())
+    assert dict(found.entries)["chains B, A"] == (lighter, TIDE.entity[0].carbon)
 
 
 def test_legends_of_numbers_are_ramps() -> None:
@@ -107,7 +117,7 @@ def test_an_override_is_shown_by_its_selection_and_wins_over_the_scheme() -> Non
     found = legend("entity", painted)
     assert isinstance(found, Swatches)
     assert [name for name, _ in found.entries] == ["chains B, A", "chain D", "Zn", "resn HEM", "water"]
-    assert found.entries[-2:] == [("resn HEM", (1, 2, 3)), ("water", (4, 5, 6))]
+    assert found.entries[-2:] == [("resn HEM", ((1, 2, 3),)), ("water", ((4, 5, 6),))]
 
 
 def test_the_last_override_wins() -> None:
@@ -219,3 +229,16 @@ def test_a_label_stays_on_the_page() -> None:
     left = text.x - {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor] * text_width(text.text, text.size)
     assert left >= 0 and left + text_width(text.text, text.size) <= picture.width and 0 < text.y < picture.height
     assert text.text == "Fe in the middle of it all"
+
+
+def test_what_means_nothing_or_is_hidden_is_told() -> None:
+    balls = b"3\n\nC 0 0 0\nFe 0 0 -1\nO 9 0 0\n"
+    loaded = load("three.xyz", InputOptions(), balls)[0]
+    asked = ("element Zn=gone", "element Fe", "element O=seen")
+    request = DrawRequest(DrawOptions(TIDE), (("element N", (9, 9, 9)), ("element C", (8, 8, 8))), asked)
+    wide = loaded._replace(spheres=loaded.spheres._replace(radius=np.array([3.0, 1.0, 1.0])))
+    assert drawing_of(wide, request, ViewOptions("file")).notes == (
+        "three.xyz: color 'element N' means no atom that is drawn",
+        "three.xyz: label 'element Zn' means no atom that is drawn",
+        "three.xyz: label 'element Fe' means atoms that are hidden",
+    )

@@ -114,7 +114,7 @@ def drawing(found: Furnished) -> Box:
 EVERYTHING = Furniture(
     title="Crambin",
     scale_bar=ROUND,
-    legend=Swatches([(f"chain {k}", (k, 0, 0)) for k in range(40)], "chains"),
+    legend=Swatches([(f"chain {k}", [(k, 0, 0)]) for k in range(40)], "chains"),
     labels=[Label(8 * np.cos(t), 8 * np.sin(t), f"Cα {t:.0f}") for t in range(50)],
     discs=DISC,
 )
@@ -189,7 +189,7 @@ def test_a_bar_longer_than_the_drawing_stays_on_the_page() -> None:
 
 
 def test_swatches_stand_in_columns_no_taller_than_the_drawing() -> None:
-    found = furnished(Furniture(legend=Swatches([(f"n{k}", (k, k, k)) for k in range(70)])))
+    found = furnished(Furniture(legend=Swatches([(f"n{k}", [(k, k, k)]) for k in range(70)])))
     (fills,) = (layer for layer in found.layers if isinstance(layer, FillLayer))
     corner = fills.paths.arcs.c.reshape(-1, 4, 2).min(axis=1)
     columns = np.unique(np.round(corner[:, 0], 6), return_counts=True)[1]
@@ -199,7 +199,7 @@ def test_swatches_stand_in_columns_no_taller_than_the_drawing() -> None:
 
 
 def test_long_names_are_cut_and_too_many_are_counted() -> None:
-    found = furnished(Furniture(legend=Swatches([("W" * 300, (1, 2, 3))] * (MOST + 7))))
+    found = furnished(Furniture(legend=Swatches([("W" * 300, [(1, 2, 3)])] * (MOST + 7))))
     (texts,) = (layer.texts for layer in found.layers if isinstance(layer, TextLayer))
     assert len(texts) == MOST + 1 and texts[-1].text == "and 7 more" and texts[0].text.endswith(ELLIPSIS)
 

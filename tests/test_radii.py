@@ -22,6 +22,7 @@ def molecule(*elements: str, **columns: list[str]) -> Molecule:
     [
         ("bondi", "H 1.20 D 1.20 He 1.40 C 1.70 N 1.55 O 1.52 F 1.47 P 1.80 S 1.80 Cl 1.75 Br 1.85 I 1.98 Li 1.82"),
         ("bondi", "Al 1.84 B 1.92 Ca 2.31 Cs 3.43"),  # from Mantina et al.
+        ("bondi", "Fe 2.05 Mn 2.05 Co 2.00 Mo 2.10 W 2.10"),  # from Batsanov
         ("mantina", "H 1.10 Br 1.83 Li 1.81 C 1.70 Ba 2.68"),
         ("alvarez", "H 1.20 C 1.77 N 1.66 O 1.50 Fe 2.44 Zn 2.39"),
         ("covalent", "H 0.31 C 0.76 N 0.71 O 0.66 Fe 1.32 U 1.96"),
@@ -57,9 +58,9 @@ def test_every_heavy_atom_of_the_twenty_residues_has_a_united_radius() -> None:
 
 
 def test_guesses_are_told() -> None:
-    radius, warnings = radii(molecule("X", "C", "Fe", "X"))
+    radius, warnings = radii(molecule("X", "C", "Gd", "X"))
     assert radius.tolist() == [2.0, 1.7, 2.0, 2.0]
-    assert warnings == ("radius guessed as 2.00 Å, for table bondi has none: Fe (1), X (2)",)
+    assert warnings == ("radius guessed as 2.00 Å, for table bondi has none: Gd (1), X (2)",)
 
 
 def test_radii_of_the_file_go_first() -> None:

@@ -201,7 +201,7 @@ def test_an_animated_svg_has_unique_ids_and_a_frame_for_each_picture() -> None:
     assert len(ids) == len(set(ids)) and drawings._repr_svg_() == drawings.svg()
     referred = set(re.findall(r"(?:url\(|href=\")#([^\")]+)", drawings.svg()))
     assert referred <= set(ids)
-    frames = [group for group in root.iter(f"{SVG}g") if group.attrib.get("class") == "molviz-frame"]
+    frames = [group for group in root.iter(f"{SVG}g") if group.attrib.get("class", "").endswith("-frame")]
     delays = [int(re.findall(r"animation-delay:(-\d+)ms", frame.attrib["style"])[0]) for frame in frames]
     assert delays == [-3000 + 500 * k for k in range(6)]
     assert [frame.attrib.get("visibility") for frame in frames] == [None, *["hidden"] * 5]

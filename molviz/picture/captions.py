@@ -11,6 +11,7 @@ from molviz.picture.coloring import CARBON_TONE, CONTINUOUS
 from molviz.picture.furniture import Label, Ramp, Swatches
 from molviz.picture.oklab import colors_of
 from molviz.picture.options import DrawOptions, Labelled, Subject
+from molviz.picture.picture import Color
 
 PLACEHOLDERS = {  # and the columns of a molecule that they stand for
     "{resn}": "residue_name", "{resi}": "residue", "{chain}": "chain", "{name}": "atom_name", "{element}": "element",
@@ -28,9 +29,8 @@ def legend_of(subject: Subject, options: DrawOptions, fill: Ints) -> Ramp | Swat
         painted |= one.atoms
     names = _names(subject, scheme)
     wanted = ~painted & (names != "")
-    row = _rows_shown(names, wanted, np.isin(subject.molecule.element, CARBON_TONE))
-    entries = zip(row, colors_of(fill[list(row.values())]), strict=True)
-    return Swatches([*entries, *((one.name, one.color) for one in subject.painted)], _TITLES.get(scheme, ""))
+    entries = _entries(names, wanted, np.isin(subject.molecule.element, CARBON_TONE), fill)
+    return Swatches([*entries, *((one.name, (one.color,)) for one in subject.painted)], _TITLES.get(scheme, ""))
 
 
 _TITLES = {"chain": "chains", "residue": "residues"}
@@ -57,12 +57,25 @@ def _names(subject: Subject, scheme: str) -> "np.ndarray[tuple[int], np.dtype[np
     return np.where(entities.entity >= 0, of_polymer[entities.entity], kinds)
 
 
-def _rows_shown(names: "np.ndarray[tuple[int], np.dtype[np.str_]]", wanted: Bools, main: Bools) -> dict[str, int]:
-    """Each name once, in order of appearance, with its first row of the ``main`` ones (n,) or else its first row."""
+def _entries(
+    names: "np.ndarray[tuple[int], np.dtype[np.str_]]", wanted: Bools, main: Bools, fill: Ints
+) -> list[tuple[str, tuple[Color, ...]]]:
+    """Each name once, in order of appearance, with the different colours of its ``main`` atoms (n,) or else its first.
+
+    Copies of an entity in several tints have as many.
+    """
     rows = np.flatnonzero(wanted)
-    first = dict.fromkeys(names[rows].tolist(), -1)
-    rows = rows[np.argsort(~main[rows], kind="stable")][::-1]
-    return first | dict(zip(names[rows].tolist(), rows.tolist(), strict=True))
+    known, name = np.unique(names[rows], return_inverse=True)
+    is_main = main[rows]
+    first = np.unique(name, return_index=True)[1]
+    is_main[first[~np.isin(np.arange(len(known)), name[is_main])]] = True
+    rows, name = rows[is_main], name[is_main]
+    keys = np.column_stack([name, fill[rows]])
+    place = np.sort(np.unique(keys, axis=0, return_index=True)[1])
+    colors: dict[str, list[Color]] = {str(known[k]): [] for k in np.argsort(first).tolist()}
+    for number, color in zip(name[place].tolist(), colors_of(fill[rows[place]]), strict=True):
+        colors[str(known[number])].append(color)
+    return [(one, tuple(several)) for one, several in colors.items()]
 
 
 def labels_of(subject: Subject, seen: Ints, area: Floats, place: Callable[[int], Floats]) -> list[Label]:

@@ -7,6 +7,7 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.geometry.intervals import TURN
+from molviz.geometry.rows import lists_taken
 
 
 class Chains(NamedTuple):
@@ -26,6 +27,17 @@ def linked(origin: Ints, target: Ints, curve: Ints, arcs: Ints) -> Chains:
     partner = _partners(vertex, np.repeat(curve[arcs], 2))
     local, start, closed = _walked(partner)
     return Chains(2 * arcs[local >> 1] + (local & 1), start, closed)
+
+
+def linked_apart(origin: Ints, target: Ints, curve: Ints, arcs: Ints, owner: Ints) -> tuple[Chains, Ints]:
+    """Return the given arcs as chains, none of which has arcs of two owners (k,), and the owner of each, ascending."""
+    of_arc, count = np.zeros(len(curve), dtype=np.int64), int(owner.max(initial=0)) + 1
+    of_arc[arcs] = owner
+    chains = linked(origin * count + of_arc, target * count + of_arc, curve, arcs)
+    of_chain = of_arc[chains.half_edge[chains.start[:-1]] >> 1]
+    order = np.argsort(of_chain, kind="stable")
+    place, start = lists_taken(chains.start, order)
+    return Chains(chains.half_edge[place], start, chains.closed[order]), of_chain[order]
 
 
 def _partners(vertex: Ints, curve: Ints) -> Ints:

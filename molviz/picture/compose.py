@@ -7,11 +7,10 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths, PlaneArcs
-from molviz.geometry.planar_map import Loops
 from molviz.geometry.rows import offsets
 from molviz.model.molecule import Molecule
 from molviz.picture.captions import labels_of, legend_of
-from molviz.picture.chains import linked, merged_arcs
+from molviz.picture.chains import linked, linked_apart, merged_arcs
 from molviz.picture.coloring import order_of_appearance
 from molviz.picture.furniture import Box, Furnished, Furniture, Label, Ramp, Swatches, furnish
 from molviz.picture.hatching import LEVELS, hatched, level_distance, tone_levels
@@ -66,6 +65,7 @@ NO_DISCS = np.empty((0, 3))
 BY_PALETTE = ("entity", "chain")  # schemes whose colours are the palette's
 DARK_PAGE = 50.0  # L*: on pages below, texts and bars are light
 LIGHT_TEXT = (240, 240, 240)
+WHITE = (255, 255, 255)
 INK_CLASSES = 3  # of distance, in which ink takes on the haze
 INK_FOG = 0.25  # of the fog's strength that the ink of the farthest class takes on
 
@@ -86,7 +86,7 @@ class MapComposer:
 
     def legend(self) -> Ramp | Swatches:
         """Return what explains the colours."""
-        return legend_of(self.subject, self.options, self.subject.colors(self.options, self.no_tints).fill)
+        return legend_of(self.subject, self.options, self.subject.colors(self.options, self.shown_tints).fill)
 
     def labels(self) -> tuple[list[Label], Floats]:
         """Return the labels, and the discs x, y, r that they stay off."""
@@ -100,6 +100,11 @@ class MapComposer:
     def no_tints(self) -> Ints:
         """The tints of chains that do not touch."""
         return np.zeros(len(self.subject.entities.chain), dtype=np.int64)
+
+    @property
+    def shown_tints(self) -> Ints:
+        """The tints that the scheme of colours has."""
+        return self.tints if self.options.color_by == "entity" else self.no_tints
 
     def layers(self) -> list[Layer]:
         """Return all layers in painting order: regions, shade, light, lines."""
@@ -132,8 +137,7 @@ class MapComposer:
     @cached_property
     def looks(self) -> Looks:
         """The colours of each sphere."""
-        tint = self.tints if self.options.color_by == "entity" else self.no_tints
-        colors = self.subject.colors(self.options, tint).take(self.subject.atom)
+        colors = self.subject.colors(self.options, self.shown_tints).take(self.subject.atom)
         group = groups(self.subject.molecule, self.subject.entities)[self.subject.atom]
         if self.options.is_mask:
             return Looks(*colors, group, np.zeros(len(group)))
@@ -268,18 +272,33 @@ class MapComposer:
 
     def edges(self) -> list[Layer]:
         """Return even strokes along creases, outlines and silhouettes, those of one role in one layer."""
-        roles, on_curves = line_roles(self.map, self.sliver), self.map.curve_arcs
+        roles, color = line_roles(self.map, self.sliver), self.style.lines.color
         layers: list[Layer] = []
         for role, width in ((CREASE, self.widths[1]), (OUTLINE, self.widths[0]), (SILHOUETTE, self.widths[0])):
             rows = np.flatnonzero(roles == role)
             if role == CREASE:
                 rows = rows[self.wanted_creases[rows]]
             if width > 0 and len(rows):
-                chains = linked(on_curves.origin, on_curves.target, on_curves.curve, rows)
                 opacity = self.style.lines.crease_opacity if role == CREASE else 1.0
-                paths = shapes_of(self.arcs, on_curves.curve, chains)
-                layers.append(StrokeLayer(ROLES[role], paths, width, self.style.lines.color, opacity=opacity))
+                paths, below = self.lines_by_ground(rows) if opacity < 1 else (self.lines(rows), [])
+                layers.append(StrokeLayer(ROLES[role], paths, width, color, opacity=opacity, below=below))
         return layers
+
+    def lines(self, rows: Ints) -> Paths:
+        """Return arcs joined to lines as long as they can be."""
+        on_curves = self.map.curve_arcs
+        chains = linked(on_curves.origin, on_curves.target, on_curves.curve, rows)
+        return shapes_of(self.arcs, on_curves.curve, chains)
+
+    def lines_by_ground(self, rows: Ints) -> tuple[Paths, list[Color]]:
+        """Return the same as one shape for each colour below, and these: means of the fills on both sides."""
+        paper = self.options.background or WHITE
+        fill = np.vstack([self.looks.fill, paper])  # BACKGROUND is −1, the last
+        both = (fill[self.map.left[rows]] + fill[self.map.right[rows]]) // 2
+        distinct, number = np.unique(both, axis=0, return_inverse=True)
+        on_curves = self.map.curve_arcs
+        chains, shape = linked_apart(on_curves.origin, on_curves.target, on_curves.curve, rows, number.ravel())
+        return shapes_of(self.arcs, on_curves.curve, chains, shape), colors_of(distinct)
 
     @cached_property
     def wanted_creases(self) -> Bools:
@@ -321,8 +340,7 @@ def alike_with(seen: VisibilityMap | Pieces, view: View, subject: Subject, optio
     if isinstance(seen, Pieces):
         return Alike(_around_pieces(subject, options).free, values=subject.bounds)
     composer = MapComposer(seen, view, subject, options)
-    tints = composer.tints.tolist() if options.color_by == "entity" else composer.no_tints.tolist()
-    tint = dict(zip(subject.entities.chain.tolist(), tints, strict=True))
+    tint = dict(zip(subject.entities.chain.tolist(), composer.shown_tints.tolist(), strict=True))
     return Alike(composer.furnished.free, depths(seen, view, composer.seen), tint, subject.bounds)
 
 
@@ -372,7 +390,7 @@ def _around_pieces(subject: Subject, options: DrawOptions) -> Furnished:
 def _fills_of_pieces(paths: Paths, fill: Ints, sphere: Ints, subject: Subject, options: DrawOptions) -> FillLayer:
     colors = colors_of(fill)
     if (options.fill or options.chosen_style().fill) == "none":
-        colors = [options.background or (255, 255, 255)] * len(colors)
+        colors = [options.background or WHITE] * len(colors)
     spread = 0.0 if options.is_mask else SPREAD
     return FillLayer("fills", paths, colors, marks(subject.molecule.take(subject.atom[sphere]), False), spread)
 
@@ -381,16 +399,11 @@ def _strokes_of_pieces(
     name: str, pieces: Pieces, arcs: PlaneArcs, edge: Ints, shape: Ints, width: float, options: DrawOptions
 ) -> StrokeLayer:
     """The edges of one kind, one shape per piece, each chained within its piece only."""
-    on_curves, count = pieces.curve_arcs, len(pieces.order)
-    owner = np.zeros(len(on_curves.curve), dtype=np.int64)
-    owner[edge] = shape
-    chains = linked(on_curves.origin * count + owner, on_curves.target * count + owner, on_curves.curve, edge)
-    of_chain = owner[chains.half_edge[chains.start[:-1]] >> 1]
-    order = np.argsort(of_chain, kind="stable")
-    ordered = closed_chains(Loops(chains.half_edge, chains.start, of_chain), order)
-    ordered = ordered._replace(closed=chains.closed[order])
-    rows, start = merged_arcs(arcs, on_curves.curve, ordered)
-    return StrokeLayer(name, Paths(rows, start, offsets(of_chain, count)), width, options.chosen_style().lines.color)
+    on_curves = pieces.curve_arcs
+    chains, of_chain = linked_apart(on_curves.origin, on_curves.target, on_curves.curve, edge, shape)
+    rows, start = merged_arcs(arcs, on_curves.curve, chains)
+    paths = Paths(rows, start, offsets(of_chain, len(pieces.order)))
+    return StrokeLayer(name, paths, width, options.chosen_style().lines.color)
 
 
 def furnished(
@@ -404,7 +417,7 @@ def furnished(
     style = options.chosen_style()
     line = max(style.ink.silhouette.points, style.lines.outline.width)
     line = max(line if options.outline is None else options.outline, options.crease or 0.0)
-    paper = options.background or (255, 255, 255)
+    paper = options.background or WHITE
     color = style.lines.color if lightness(paper) > DARK_PAGE else LIGHT_TEXT
     furniture = Furniture(options.title, options.scale_bar, legend, labels, discs, color, paper)
     return furnish(options.page, subject.low, subject.high, line / 2, furniture, subject.alike.free)

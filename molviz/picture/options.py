@@ -36,6 +36,7 @@ class Labelled:
 
     atoms: Bools  # (n,)
     template: str
+    name: str  # the selection as it was written
 
 
 @dataclass(frozen=True)

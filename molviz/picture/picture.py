@@ -97,7 +97,10 @@ class FillLayer:
 
 @dataclass(frozen=True)
 class StrokeLayer:
-    """Stroked paths of one colour and width in points, with round caps and joins; ``opacity`` as of a FillLayer."""
+    """Stroked paths of one colour and width in points, with round caps and joins; ``opacity`` as of a FillLayer.
+
+    ``below`` is what lies under each shape, which PostScript mixes translucent lines with instead of the background.
+    """
 
     name: str
     paths: Paths
@@ -105,6 +108,7 @@ class StrokeLayer:
     color: Color = (0, 0, 0)
     mark: Sequence[Mark] = ()  # empty, or one per shape
     opacity: float = 1.0
+    below: Sequence[Color] = ()  # empty, or one per shape
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ from molviz.visibility.view import View
 
 LEDGE_FROM = 1.0  # ångström: wider skirts hang from ledges only, not from lone tips
 LEDGE_WITHIN = 1.6  # ångström beyond the skirt's reach
-SPECK = 0.06  # of the square of the usual radius: smaller bands of light look like dirt
+SPECK = 0.1  # of the square of the usual radius: smaller bands of light look like dirt
 RADIUS_STEP = 0.03  # of a radius: the eye tells no gradients apart that differ by less
 FOCUS = 0.55  # of the radius, how far from the middle a ball is brightest, times the light's x and y
 LEDGE_COUNT = 7  # spheres that make a ledge

@@ -9,6 +9,7 @@ from molviz.picture.palette import Palette, Tones
 TURNS = np.array([0.0, 6.0, 8.0, 14.0])  # degrees of hue in OKLab: seen beside each other only
 COUNT = len(TURNS)
 NEGLIGIBLE = 0.02  # part of the border that a chain has with its likes: so short a touch needs no tint of its own
+WHITE = 100.0  # L* of paper, from which a tint is as far as from its copies; else the next one is a darker one
 DARKEST, LIGHTEST = 38.0, 95.5  # L* of a tinted carbon: ink is lost on darker ones, the paper's white in lighter ones
 
 
@@ -18,7 +19,8 @@ def entity_tints(chain_entity: Ints, palette: Palette, one: Ints, other: Ints, w
     ``chain_entity`` (p,) says which entity a chain is a copy of; chain ``one[k]`` touches ``other[k]`` with a weight
     (k,), for example the length of their border on the page. A pair may come several times and in either direction;
     rows with a negative number (no polymer) count for nothing. ``near`` (p,) grows towards the eye: among the copies of
-    an entity, the tint whose chains are nearest on average is 0, the plain colours; the next is lighter, as haze is.
+    an entity, the tint whose chains are nearest on average is 0, the plain colours; the next is lighter, as haze is, or
+    darker where the plain ones are light.
     """
     rows = len(palette.entity)
     like = chain_entity % rows
@@ -68,14 +70,16 @@ def _nearest_plain(tint: Ints, near: Floats) -> Ints:
 def shifts(carbon: Colors, step: float) -> Floats:
     """Return by how much L* the tints (..., 4) of colours differ from them: multiples of ``step``, 0 first.
 
-    The nearest multiples that leave L* between the darkest and the lightest that serve, a lighter before a darker one.
+    The nearest multiples that leave L* between the darkest and the lightest that serve, a lighter before a darker one
+    unless the colour itself is so light that the next would be nearer to white than to it.
     """
-    multiples = np.array([0, 1, -1, 2, -2, 3, -3]) * step
-    light = lightness(carbon)[..., None] + multiples
+    plain = lightness(carbon)[..., None]
+    multiples = np.array([0, 1, -1, 2, -2, 3, -3]) * step * np.where(plain + step > WHITE - step, -1.0, 1.0)
+    light = plain + multiples
     refused: Bools = (light < DARKEST) | (light > LIGHTEST)
     refused[..., 0] = False
     order = np.argsort(refused, axis=-1, kind="stable")[..., :COUNT]
-    return multiples[order]
+    return np.take_along_axis(multiples, order, axis=-1)
 
 
 def tinted(tones: Tones, step: float) -> Ints:

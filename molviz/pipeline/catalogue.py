@@ -21,11 +21,16 @@ def palettes() -> list[dict[str, Any]]:
 
 
 def radii_tables() -> list[dict[str, Any]]:
-    """Return the name, title and source of every table of radii, and which one is used unless another is asked for."""
-    return [
+    """Return the name, title and source of every table of radii, and which one is used unless another is asked for.
+
+    The last is no table but the radii that a file itself has.
+    """
+    tables = [
         {"name": name, "title": table.title, "source": table.source, "default": name == radii.DEFAULT}
         for name, table in ((name, radii.load_table(name)) for name in radii.TABLES)
     ]
+    own = {"name": radii.OWN, "title": "the radii that the file itself has", "source": radii.OWN_SOURCE}
+    return [*tables, own | {"default": False}]
 
 
 def text_of(name: str) -> dict[str, str]:

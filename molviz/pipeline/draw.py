@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import PurePath
@@ -41,6 +41,7 @@ from molviz.visibility.checks import check_map
 from molviz.visibility.lines import slivers
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.map_json import map_as_data
+from molviz.visibility.overlay import seen_spheres
 from molviz.visibility.painter import Pieces
 from molviz.visibility.scene import Scene, extent
 from molviz.visibility.view import View
@@ -89,15 +90,27 @@ class Drawing:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is odd about the picture: sticks that are not as asked for, colours that stand for several chains."""
-        return self._solids.notes + self._note_of_colors()
+        """What is odd about the picture: sticks that are not as asked for, colours that stand for more than one chain,
+        options that change nothing."""
+        told = (*self._shared_colors(), *self._without_effect())
+        return self._solids.notes + tuple(f"{self._loaded.source}: {note}" for note in told)
 
-    def _note_of_colors(self) -> tuple[str, ...]:
+    def _shared_colors(self) -> Iterator[str]:
         chains = len(np.unique(self._loaded.molecule.chain))
-        if self._options.color_by != "chain" or not self._options.palette.repeats(chains):
-            return ()
-        told = f"{chains} chains share {len(self._options.palette.chain)} colours; expected a palette of more"
-        return (f"{self._loaded.source}: {told}",)
+        if self._options.color_by == "chain" and self._options.palette.repeats(chains):
+            yield f"{chains} chains share {len(self._options.palette.chain)} colours; expected a palette of more"
+
+    def _without_effect(self) -> Iterator[str]:
+        """Colours and labels of nothing that is drawn, and labels of what is hidden."""
+        for painted in self.subject.painted:
+            if not painted.atoms.any():
+                yield f"color {painted.name!r} means no atom that is drawn"
+        seen = self._seen.order if isinstance(self._seen, Pieces) else seen_spheres(self._seen.by_sphere())
+        for labelled in self.subject.labelled:
+            if not labelled.atoms.any():
+                yield f"label {labelled.name!r} means no atom that is drawn"
+            elif not labelled.atoms[self.subject.atom[seen]].any():
+                yield f"label {labelled.name!r} means atoms that are hidden"
 
     def __repr__(self) -> str:
         return (
@@ -198,7 +211,7 @@ def labelled_of(molecule: Molecule, text: str) -> Labelled:
     """Return the atoms that ``SELECTION[=TEXT]`` means, split at the first = that leaves a valid selection."""
     for place in [*(k for k, letter in enumerate(text) if letter == "="), len(text)]:
         try:
-            return Labelled(select(molecule, text[:place]), text[place + 1 :])
+            return Labelled(select(molecule, text[:place]), text[place + 1 :], text[:place])
         except InputError:
             if place == len(text):
                 raise

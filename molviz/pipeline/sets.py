@@ -65,8 +65,9 @@ class DrawingSet:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is odd about the first picture."""
-        return self._views[0][0].notes
+        """What is odd about every picture: what is hidden in some may be seen in others."""
+        first, *others = (drawing.notes for views in self._views for drawing in views)
+        return tuple(note for note in first if all(note in notes for notes in others))
 
     @property
     def atoms_read(self) -> int:

@@ -20,6 +20,7 @@ from molviz.picture.picture import (
 )
 from molviz.write.text import number
 
+FLATNESS = "0.2"  # of a device's pixel: curves flattened more coarsely, as many interpreters do, have corners
 PLACES = 4  # of numbers in a gradient: colours come back as the same bytes
 
 
@@ -92,11 +93,14 @@ def stitched(stops: Stops) -> str:
 
 
 def opaque(layer: Layer, paper: Color) -> Layer:
-    """Return a layer whose paints are mixed with the colour of the paper, as they look where nothing else is below."""
+    """Return a layer whose paints are mixed with the colour of the paper, as they look where nothing else is below.
+
+    Lines that know what is below stay as they are.
+    """
     if isinstance(layer, FillLayer):
         seen = {paint: mixed(paint, layer.opacity, paper) for paint in dict.fromkeys(layer.paint)}
         return replace(layer, paint=[seen[paint] for paint in layer.paint], opacity=1.0)
-    if isinstance(layer, StrokeLayer):
+    if isinstance(layer, StrokeLayer) and not layer.below:
         return replace(layer, color=mixed_color(paper, layer.color, layer.opacity), opacity=1.0)
     return layer
 

@@ -22,7 +22,7 @@ from molviz.picture.picture import (
     TextLayer,
 )
 from molviz.write.font import Font, left
-from molviz.write.paint import border_colors, origins, shares
+from molviz.write.paint import FLATNESS, border_colors, origins, shares
 from molviz.write.pdf_path import PLACES, shape_texts
 from molviz.write.pdf_resources import Resources, SharedFont
 from molviz.write.text import clean, number
@@ -102,7 +102,7 @@ def page(
 
 def page_lines(picture: Picture, names: Resources) -> Iterator[str]:
     """Yield the operators that paint the page."""
-    yield "1 J 1 j"
+    yield f"1 J 1 j {FLATNESS} i"
     if picture.background is not None:
         size = f"{number(picture.width, PLACES)} {number(picture.height, PLACES)}"
         yield f"{shares(picture.background)} rg 0 0 {size} re f"

@@ -20,7 +20,7 @@ from molviz.picture.picture import (
     TextLayer,
 )
 from molviz.write.font import characters, font_of, left, pieces
-from molviz.write.paint import border_colors, gradients, opaque, origins, shading
+from molviz.write.paint import FLATNESS, border_colors, gradients, mixed_color, opaque, origins, shading
 from molviz.write.postscript_path import shape_texts
 from molviz.write.postscript_shade import SHADE_PROCEDURES, shade_lines
 from molviz.write.text import ascii_line, number
@@ -32,7 +32,9 @@ COMMENT = 200  # characters of a name or a description on a line
 SHOWN = 50  # characters shown at once, four bytes each: no line is longer than 255
 
 # a1 a2 major minor rotation cx cy E (F backwards): the arc is built in the unit circle's frame, then that frame is
-# dropped, so that the pen stays round.
+# dropped, so that the pen stays round. PostScript paints every pixel that a shape touches, so that no line is lost; an
+# interpreter that smooths edges does so with parts of pixels, where all shapes grow for nothing. R tells ghostscript,
+# if it smooths, to paint what is covered.
 PROLOG = r"""%%BeginProlog
 /molviz 16 dict def molviz begin
 /M matrix def
@@ -48,7 +50,9 @@ PROLOG = r"""%%BeginProlog
 /s{stroke}bind def
 /b{gsave fill grestore stroke}bind def
 /w{setlinewidth}bind def
-/c{3{255 div 3 1 roll}repeat setrgbcolor}bind def"""
+/c{3{255 div 3 1 roll}repeat setrgbcolor}bind def
+/R{currentpagedevice/GraphicsAlphaBits 2 copy known{get}{pop pop 1}ifelse 1 gt
+/.setfilladjust2 where{pop{0 0 .setfilladjust2}if}{pop}ifelse}bind def"""
 
 # A shape with a gradient: gsave, its path, the colour of its border; k strokes it; S0 x y g paints shading S0 at x, y.
 GRADIENT_PROCEDURES = r"""/k{gsave stroke grestore}bind def
@@ -84,7 +88,7 @@ def document(pictures: Sequence[Picture], header: str, setup: list[str]) -> byte
     lines = [header, *comments(pictures, 3 if names else 2), *prolog, *setup]
     for number_of_page, picture in enumerate(pictures, start=1):
         lines += [f"%%Page: {number_of_page} {number_of_page}"]
-        lines += ["molviz begin gsave 1 setlinecap 1 setlinejoin newpath", *background(picture)]
+        lines += [f"molviz begin gsave 1 setlinecap 1 setlinejoin {FLATNESS} setflat R newpath", *background(picture)]
         lines += [*body(picture, names, font), "grestore end", "showpage"]
     return ("\n".join([*lines, "%%Trailer", "%%EOF"]) + "\n").encode("ascii")
 
@@ -197,6 +201,8 @@ def stroked(layer: StrokeLayer) -> Iterator[str]:
     for shape, loops in enumerate(shape_texts(layer.paths, False)):
         if layer.mark:
             yield from title_line(layer.mark[shape])
+        if layer.below:
+            yield color_text(mixed_color(layer.below[shape], layer.color, layer.opacity))
         yield from (f"{loop} s" for loop in loops)
 
 

@@ -1,6 +1,7 @@
 """SVG: one element per shape, in groups that any editor shows by name."""
 
 import gzip
+import hashlib
 from collections import Counter
 from collections.abc import Sequence
 from typing import Any
@@ -37,6 +38,7 @@ DUBLIN_CORE = "http://purl.org/dc/elements/1.1/"
 RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 FACES = "Helvetica, Arial, Arimo, 'Liberation Sans', sans-serif"  # all as wide as each other
+OWN = "\x01"  # begins names that only the file itself calls; no text can hold it
 OFTEN = 4  # shapes of one colour from which on a class is shorter than the colour itself
 
 
@@ -61,10 +63,16 @@ def empty_drawing(picture: Picture) -> Drawing:
 
 
 def finished(drawing: Drawing, elements: "Elements", more: str = "") -> bytes:
-    """Return the file; its style sheet has the rules of the elements, and ``more``."""
+    """Return the file; its style sheet has the rules of the elements, and ``more``.
+
+    Letters made of its content set its own names apart from those of other drawings in one web page.
+    """
     if elements.rules or more:
         drawing.defs.add(Style("".join(f".{name}{{{rule}}}" for rule, name in elements.rules.items()) + more))
-    return f'<?xml version="1.0" encoding="utf-8"?>\n{drawing.tostring()}\n'.encode()
+    text = f'<?xml version="1.0" encoding="utf-8"?>\n{drawing.tostring()}\n'
+    drawn = text[text.index("<defs") :]  # and not what drew it
+    letters = "".join(chr(ord("a") + int(digit, 16)) for digit in hashlib.sha256(drawn.encode()).hexdigest()[:4])
+    return text.replace(OWN, letters).encode()
 
 
 def describe(drawing: Drawing, picture: Picture) -> None:
@@ -108,6 +116,10 @@ class Elements:
         word = token(wish)
         self.taken[word] += 1
         return word if self.taken[word] == 1 else self.fresh_id(f"{word}-{self.taken[word]}")
+
+    def own_id(self, wish: str) -> str:
+        """Return the same for what only references find, apart from the ids of other drawings too."""
+        return OWN + self.fresh_id(wish)
 
     def layer(self, layer: Layer, height: float) -> Group:
         """Return the group of a layer, which Inkscape takes for a layer of its own."""
@@ -170,12 +182,12 @@ class Elements:
 
     def shades(self, group: Group, layer: ShadeLayer, height: float) -> None:
         """Add translucent steps, written once, in the colour of each clip inside it."""
-        steps = self.group(f"{layer.name} steps")
+        steps = Group(id=self.own_id(f"{layer.name} steps"), factory=self.drawing)
         for d, opacity in zip(path_data(layer.steps, height), layer.opacity, strict=True):
             steps.add(Path(d, opacity=number(opacity, 4), factory=self.drawing))
         self.drawing.defs.add(steps)
         for d, color in zip(path_data(layer.clip, height), layer.color, strict=True):
-            clip = ClipPath(id=self.fresh_id(f"{layer.name} clip"), factory=self.drawing)
+            clip = ClipPath(id=self.own_id(f"{layer.name} clip"), factory=self.drawing)
             clip.add(Path(d, factory=self.drawing))
             self.drawing.defs.add(clip)
             inside = Group(clip_path=clip.get_funciri(), fill=hexadecimal(color), factory=self.drawing)
@@ -210,14 +222,14 @@ class Elements:
         if isinstance(paint, tuple):
             return hexadecimal(paint)
         if paint not in self.servers:
-            element = gradient_element(paint, self.fresh_id("gradient"))
+            element = gradient_element(paint, self.own_id("gradient"))
             self.drawing.defs.add(element)
             self.servers[paint] = element.get_funciri()
         return self.servers[paint]
 
     def rule(self, text: str) -> str:
         """Return the class with that style rule."""
-        return self.rules.setdefault(text, f"s{len(self.rules)}")
+        return self.rules.setdefault(text, f"{OWN}{len(self.rules)}")
 
     def group(self, name: str, **attributes: str) -> Group:
         """Return an empty group with an id like ``name``."""

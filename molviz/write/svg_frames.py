@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from svgwrite.container import Group
 
 from molviz.picture.picture import Picture
-from molviz.write.svg import Elements, empty_drawing, finished
+from molviz.write.svg import OWN, Elements, empty_drawing, finished
 from molviz.write.text import number
 
 FRAME_TIME = 100  # milliseconds that a picture is shown: a turn of 36 steps takes as long as one takes in the hand
 SHORTEST_LOOP = 3000  # milliseconds for all pictures, where they are few
-FRAME = "molviz-frame"  # class of the pictures
+FRAME = f"{OWN}-frame"  # class of the pictures
 
 
 def write_animated(pictures: Sequence[Picture]) -> bytes:

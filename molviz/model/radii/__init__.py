@@ -16,16 +16,18 @@ from molviz.model.elements import symbol_of
 from molviz.model.molecule import Molecule
 
 TABLES = {
-    "bondi": "van der Waals radii, Bondi 1964 completed by Mantina et al. 2009",
+    "bondi": "van der Waals radii: Bondi 1964, then Mantina et al. 2009, metals Batsanov 2001",
     "mantina": "van der Waals radii of the main group, Mantina et al. 2009",
     "alvarez": "van der Waals radii, Alvarez 2013",
     "covalent": "covalent radii, Cordero et al. 2008",
     "protor": "united atoms of proteins, Tsai et al. 1999 (ProtOr); all else as bondi",
     "chothia": "united atoms of proteins, Chothia 1976; all else as bondi",
 }
+COMPLETING = (*TABLES, "batsanov")  # what a table may be completed by
 DEFAULT = "bondi"
 OWN = "file"  # no table, but the radii that the file itself has
-GUESS = 2.0  # ångström, where the table has nothing: about the mean of the metals of Bondi's table and of Mantina's
+OWN_SOURCE = "PQR and .xyzr files (a radius for each atom)"
+GUESS = 2.0  # ångström, where the table has nothing: about the mean of all metals that it has
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,7 @@ def load_table(name: str) -> RadiiTable:
     no such file, or it holds a name that is no element or a radius that is not positive and finite.
     """
     if name in TABLES:
-        return _table(_toml(Path(__file__).with_name(f"{name}.toml")), TABLES[name], name)
+        return _published(name)
     path = Path(name)
     if not os.path.isfile(name):  # noqa: PTH113 (Path.is_file raises for names too long)
         expected = expected_instead(name, (*TABLES, OWN), f"one of {', '.join(TABLES)}, {OWN} or a table's path")
@@ -140,17 +142,24 @@ def _table(content: Mapping[str, Any], title: str, name: str) -> RadiiTable:
     atoms = _atoms(_section(content, "residues", name), types, name)
     source = str(content.get("source", name))
     if "completed_by" in content:
-        rest = _completing(content["completed_by"], name)
-        elements, source = {**rest.elements, **elements}, f"{source}; completed by {rest.source}"
+        for rest in _completing(content["completed_by"], name):
+            elements, source = {**rest.elements, **elements}, f"{source}; completed by {rest.source}"
     if not elements and not atoms:
         raise OptionError("the radii table is empty; expected [elements]", name)
     return RadiiTable(title, source, elements, atoms, bool(content.get("implicit_hydrogens", False)))
 
 
-def _completing(table: object, name: str) -> RadiiTable:
-    if table not in TABLES:
-        raise OptionError(f"completed_by is {table!r}; expected one of {', '.join(TABLES)}", name)
-    return load_table(str(table))
+def _completing(tables: object, name: str) -> list[RadiiTable]:
+    """Return the published tables that one name or a list of names means."""
+    names = tables if isinstance(tables, list) else [tables]
+    for one in names:
+        if one not in COMPLETING:
+            raise OptionError(f"completed_by is {one!r}; expected one of {', '.join(COMPLETING)}", name)
+    return [_published(str(one)) for one in names]
+
+
+def _published(name: str) -> RadiiTable:
+    return _table(_toml(Path(__file__).with_name(f"{name}.toml")), TABLES.get(name, name), name)
 
 
 def _section(content: Mapping[str, Any], key: str, name: str, title: str = "") -> Mapping[str, Any]:

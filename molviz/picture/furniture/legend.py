@@ -36,9 +36,9 @@ class Ramp:
 
 @dataclass(frozen=True)
 class Swatches:
-    """Colours of names, in the order in which they are listed."""
+    """Colours of names, one or several of each, in the order in which they are listed."""
 
-    entries: Sequence[tuple[str, Color]]
+    entries: Sequence[tuple[str, Sequence[Color]]]
     title: str = ""
 
 
@@ -71,7 +71,7 @@ def _right(text: Text) -> float:
 
 def _swatches(swatches: Swatches, left: float, drawing: Box, color: Color) -> tuple[list[Piece], Box]:
     """In columns no taller than the drawing, filled one after the other."""
-    shown = [(shortened(one_line(name), SIZE, NAME), paint) for name, paint in swatches.entries[:MOST]]
+    shown = [(shortened(one_line(name), SIZE, NAME), colors) for name, colors in swatches.entries[:MOST]]
     rest = len(swatches.entries) - len(shown)
     lines = [name for name, _ in shown] + ([f"and {rest} more"] if rest else [])
     title = one_line(swatches.title)
@@ -82,9 +82,13 @@ def _swatches(swatches: Swatches, left: float, drawing: Box, color: Color) -> tu
     up = (SWATCH - CAPITAL * SIZE) / 2
     texts = [Text(left, top - CAPITAL * SIZE, title, SIZE)] if title else []
     texts += [Text(x + SWATCH + GAP, y + up, line, SIZE) for (x, y), line in zip(corners, lines, strict=True)]
-    boxes = np.array([(x, y, x + SWATCH, y + SWATCH) for x, y in corners[: len(shown)]])
-    marks = [Mark(f"legend {name}", name) for name, _ in shown]
-    fills = FillLayer("legend", rectangles(boxes), [paint for _, paint in shown], marks)
+    parts = [
+        ((x + SWATCH * part / len(colors), y, x + SWATCH, y + SWATCH), color, Mark(f"legend {name}", name))
+        for (name, colors), (x, y) in zip(shown, corners, strict=False)
+        for part, color in enumerate(colors)  # each over the rest of the one before: no seams
+    ]
+    boxes, paints, marks = zip(*parts, strict=True) if parts else ((), (), ())
+    fills = FillLayer("legend", rectangles(np.array(boxes)), paints, marks)
     right = max(map(_right, texts), default=left)
     return [fills, TextLayer("legend text", texts, color)], Box(left, top - height, right, top)
 
