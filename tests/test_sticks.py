@@ -50,7 +50,7 @@ def looking_along(way: tuple[float, float, float], center: np.ndarray, distance:
 
 
 def assert_seen(spheres: Spheres, sticks: Sticks, view: View, seed: int, apart: float = 0.0) -> None:
-    """The faces about points are what lines of sight meet there, but where the next thing is no farther than ``apart``."""
+    """The faces about points are what lines of sight meet there, where the next thing is farther than ``apart``."""
     found = map_of(spheres, view, sticks)
     points = safe_points(seed, found.arcs, 4.0)
     eye = eye_coordinates(spheres, view)
