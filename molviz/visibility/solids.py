@@ -8,6 +8,7 @@ from molviz.arrays import Floats, Ints
 from molviz.geometry.grid import Neighbours
 from molviz.geometry.rows import expand
 from molviz.model.spheres import Spheres
+from molviz.vectors import dot
 from molviz.visibility.eye import occluders_of
 from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.occluders.stick import StickOccluders
@@ -16,6 +17,7 @@ from molviz.visibility.projection import Projection
 from molviz.visibility.view import View
 
 BACKGROUND = -1
+ABOVE = 1e-9  # ångström, by which a stick is nearer than the ball on which it lies
 
 
 class Solids(NamedTuple):
@@ -65,7 +67,28 @@ class Solids(NamedTuple):
         row = entry[stick] - self.balls
         far, beyond = self.sticks.hits(row, *projection.rays(page[stick]))
         nearness[stick], solid[stick] = -far, self.balls + 2 * row + beyond
+        beside = np.flatnonzero(np.any(self.sticks.ends.offset[2 * row] != 0.0, axis=1) & np.isfinite(far))
+        nearness[stick[beside]] = self._as_cut(row[beside], page[stick[beside]], far[beside], projection)
         return nearness, solid
+
+    def _as_cut(self, stick: Ints, page: Floats, far: Floats, projection: Projection) -> Floats:
+        """Return how near sticks (m,) beside the line of centres lie at page points, ``far`` along the lines of sight.
+
+        The planes at their ends say what is stick and what is ball: beyond them a stick lies on its ball, even where it
+        is a little inside, and else the ball on it.
+        """
+        origin, ray = projection.rays(page)
+        point, nearness, ends = origin + far[:, None] * ray, -far, self.sticks.ends
+        for end in (2 * stick, 2 * stick + 1):
+            sphere = ends.sphere[end]
+            from_center = point - self.spheres.spheres.center[sphere]
+            beyond = dot(from_center, ends.m[end]) > ends.t[end]
+            inside = dot(from_center, from_center) < self.spheres.spheres.radius[sphere] ** 2
+            ball = self.spheres.surface(sphere, page)
+            nearness = np.where(beyond & inside, np.maximum(nearness, ball + ABOVE), nearness)
+            under = ~beyond & ~inside & np.isfinite(ball)
+            nearness = np.where(under, np.minimum(nearness, ball - ABOVE), nearness)
+        return nearness
 
     def nearest(self, near: Neighbours, own: Ints, points: Floats, projection: Projection) -> Ints:
         """Return the solid seen at page points (m, 2) on the images of spheres or sticks ``own`` (m,), itself left out.
