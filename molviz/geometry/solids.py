@@ -86,7 +86,7 @@ def _end_in_planes(order: Floats, radius: Floats, balls: Floats) -> Bools:
     A stick of radius s at the offset o ends in a plane near to its true end on a ball of radius r; it misses that by
     about ``(os)² / 2τ³`` at most, ``τ² = r² − o² − s²``.
     """
-    near = np.isin(order, list(_PARALLEL))
+    near, radius = np.isin(order, list(_PARALLEL)), np.where(np.isfinite(radius), radius, 0.0)
     for one, sticks in _PARALLEL.items():
         for s, o in sticks:
             depth = np.sqrt(np.maximum(balls**2 - (o**2 + s**2) * radius**2, 0.0))
