@@ -26,7 +26,7 @@ from molviz.picture.looks import (
     nearness,
     tone_names,
 )
-from molviz.picture.marks import marks, region_mark
+from molviz.picture.marks import bond_marks, marks, region_mark
 from molviz.picture.oklab import colors_of, lightness, mix
 from molviz.picture.options import Alike, DrawOptions, Subject
 from molviz.picture.picture import (
@@ -161,7 +161,7 @@ class MapComposer:
 
     def regions(self) -> FillLayer:
         """Return the fills."""
-        if self.options.is_mask or self.fill == "ball" or (self.options.parts or self.style.parts) == "atoms":
+        if self.by_atom:
             return self.atoms()
         regions, first = self.color_regions
         colors = colors_of(self.looks.fill[first])
@@ -169,6 +169,11 @@ class MapComposer:
         chain = self.subject.seen_molecule.chain
         named = [region_mark(str(chain[k]), str(names[k])) for k in first.tolist()]
         return FillLayer("regions", regions.paths, colors, named, SPREAD)
+
+    @property
+    def by_atom(self) -> bool:
+        """Whether each atom has a region of its own, and each bond, rather than each chain and colour."""
+        return self.options.is_mask or self.fill == "ball" or (self.options.parts or self.style.parts) == "atoms"
 
     @cached_property
     def color_regions(self) -> tuple[Regions, Ints]:
@@ -181,7 +186,7 @@ class MapComposer:
 
     def atoms(self) -> FillLayer:
         """Return one shape per visible atom, ordered by chain and residue so that these can be groups."""
-        seen = self.solids.of_spheres() if self.fill == "ball" else self.map
+        seen = self.map if self.options.is_mask else self.solids.of_spheres()
         face = seen.loops.face
         keep = np.flatnonzero((face != BACKGROUND) & ~self.sliver)
         rank = _file_order(self.subject.molecule)[self.subject.atom]
@@ -200,16 +205,20 @@ class MapComposer:
         return FillLayer("atoms", paths, balls, named, SPREAD, images.c)
 
     def sticks(self) -> list[Layer]:
-        """Return what the light makes of sticks: bands, or the gradients of a shaded drawing."""
+        """Return bonds with names, where atoms have them, and what the light makes of sticks: bands or gradients."""
         light = self.style.light
         if self.options.is_mask or not len(self.solids.sticks.length):
             return []
         fill = self.looks.fill[self.solids.sticks.ends.sphere]
         lit = StickLight(self.solids, projection_of(self.view), self.placement, light)
-        if self.fill != "ball":
+        if not self.by_atom:
             return [*lit.bands(fill)]
+        ends = self.subject.atom[self.solids.sticks.ends.sphere.reshape(-1, 2)[lit.stick]]
+        named = bond_marks(self.subject.molecule, ends)
+        if self.fill != "ball":
+            return [FillLayer("bonds", lit.paths, colors_of(fill[lit.half]), named, SPREAD), *lit.bands(fill)]
         paints, origin = lit.gradients(fill, self.style)
-        return [FillLayer("sticks", lit.paths, paints, [region_mark("", "stick")] * len(paints), SPREAD, origin)]
+        return [FillLayer("bonds", lit.paths, paints, named, SPREAD, origin)]
 
     def shade(self) -> list[Layer]:
         """Return the contact shade, in the deep colour of whatever it falls on."""
