@@ -7,6 +7,7 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.geometry.intervals import TURN
+from molviz.geometry.rows import lists_taken
 
 
 class Chains(NamedTuple):
@@ -15,6 +16,11 @@ class Chains(NamedTuple):
     half_edge: Ints  # (m,)
     start: Ints  # (chains + 1,)
     closed: Bools  # (chains,)
+
+    def take(self, rows: Ints) -> "Chains":
+        """Return the given chains, in that order."""
+        place, start = lists_taken(self.start, rows)
+        return Chains(self.half_edge[place], start, self.closed[rows])
 
 
 def linked(origin: Ints, target: Ints, curve: Ints, arcs: Ints) -> Chains:
