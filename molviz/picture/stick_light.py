@@ -9,7 +9,7 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths
 from molviz.picture.cutting import kept_side
-from molviz.picture.ink import in_colors
+from molviz.picture.ink_shapes import in_colors
 from molviz.picture.marks import region_mark
 from molviz.picture.oklab import colors_of, mix
 from molviz.picture.page import Placement

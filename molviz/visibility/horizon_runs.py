@@ -6,15 +6,37 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import PlaneArcs
+from molviz.geometry.components import component_labels
 from molviz.geometry.rows import expand, offsets
-from molviz.visibility.curves import HORIZON
+from molviz.vectors import dot
+from molviz.visibility.curves import LINE
 from molviz.visibility.eye import occluders_of, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
-from molviz.visibility.projection import images_of
+from molviz.visibility.solids import Solids
 from molviz.visibility.view import View
 
 SPACING = 0.2  # ångström between samples
+NODE = 0.2  # ångström between vertices of one node
+STRAIGHT = 1e4  # ångström: the radius of arcs that stand for straight lines; over 2 Å they bend by 5e-5 Å
 MOST = 5000  # samples across a drawing: in those of giants they lie farther apart
+
+
+class Vertices(NamedTuple):
+    """Where on the runs the vertices of the map lie: both where runs end and where other curves end under them."""
+
+    vertex: Ints  # (p,) ascending
+    run: Ints  # (p,)
+    place: Floats  # (p,) samples, a fractional count from the run's start
+    node: Ints  # (p,) the same for all that are closer to each other along runs than NODE
+
+    def on_other_run(self, row: Ints) -> Ints:
+        """Return for each of the given rows (q,) that of the same vertex on another run, −1 where there is none."""
+        begin, end = (np.searchsorted(self.vertex, self.vertex[row], side=side) for side in ("left", "right"))
+        query, entry = expand(begin, end)
+        other = np.flatnonzero(self.run[entry] != self.run[row][query])
+        found = np.full(len(row), -1)
+        found[query[other]] = entry[other]
+        return found
 
 
 class HorizonRuns(NamedTuple):
@@ -23,9 +45,10 @@ class HorizonRuns(NamedTuple):
     sphere: Ints  # (m,) whose horizon it is
     arcs: PlaneArcs  # (m,) the whole runs
     closed: Bools  # (m,) whole turns
-    before: Ints  # (m,) the sphere under whose horizon, or out of whose ball, the run comes at its start; −1 if closed
-    after: Ints  # (m,) that under or into which it goes at its end
-    horizons: PlaneArcs  # (n,) the images of the horizons of all spheres
+    vertices: Vertices
+    ends: Ints  # (2, m) rows of ``vertices``: where they start and end
+    run_of_arc: Ints  # (k,) the run on which each arc of the map lies, −1 for creases
+    place_of_arc: Floats  # (2, k) the places there where it starts and ends
     start: Ints  # (m + 1,) CSR offsets of the samples
     t: Floats  # (s,) parameters of the samples, equally spaced, both ends included
     behind: Ints  # (s,) the sphere seen just outside each sample, or BACKGROUND
@@ -40,35 +63,108 @@ class HorizonRuns(NamedTuple):
         """Return the lengths (m,) in ångström, those of the circles about the images."""
         return self.arcs.sweep * self.arcs.major()
 
+    def last(self) -> Ints:
+        """Return the places (m,) of the last samples."""
+        return np.diff(self.start) - 1
+
 
 def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
-    """Return the visible horizons of a map, each as long as nothing hides it, and what lies behind them."""
-    curve_arcs = view_map.curve_arcs
-    row = np.flatnonzero(view_map.curves.kind[curve_arcs.curve] == HORIZON)
+    """Return the visible contours of a map, each as long as nothing hides it, and what lies behind them.
+
+    Those of sticks are told by the spheres at their ends, as arcs of circles so large that nobody sees them bend.
+    """
+    curve_arcs, owner_of = view_map.curve_arcs, np.append(view_map.owner(), BACKGROUND)
+    row = np.flatnonzero(view_map.curves.is_contour()[curve_arcs.curve])
     curve, origin, target = (column[row] for column in (curve_arcs.curve, curve_arcs.origin, curve_arcs.target))
     begins = np.append(True, (curve[1:] != curve[:-1]) | (origin[1:] != target[:-1]))[: len(row)]
     first = np.flatnonzero(begins)
     last = np.append(first[1:], len(row))[: len(first)] - 1
+    line = view_map.curves.kind[curve] == LINE
+    sweep = _sweeps(view_map.arcs.take(row), line)
     arcs = view_map.arcs.take(row[first])
-    arcs = arcs._replace(sweep=np.add.reduceat(view_map.arcs.sweep[row], first) if len(first) else arcs.sweep)
-    sphere = view_map.curves.first[curve]
-    closed = origin[first] == target[last]
-    before = np.where(closed, -1, _met_at(view_map, row, target, origin[first], sphere[first]))
-    after = np.where(closed, -1, _met_at(view_map, row, origin, target[last], sphere[first]))
-    horizons = images_of(view_map.horizons(), projection_of(view))
     spacing = max(SPACING, _width(arcs) / MOST)
+    arcs = _whole_runs(arcs, view_map.arcs.take(row[last]), sweep, first, line[first])
+    solid = view_map.curves.first[curve][first]
     count = np.maximum(np.ceil(arcs.sweep * arcs.major() / spacing).astype(np.int64), 2) + 1
     start = offsets(np.repeat(np.arange(len(first)), count), len(first))
+    run = np.repeat(np.arange(len(first)), last - first + 1)
+    places = _places(sweep, run, first, (count - 1) / arcs.sweep)
+    length = arcs.major() * arcs.sweep
+    vertices = _vertices(np.append(origin, target), np.tile(run, 2), places.ravel(), length, count - 1)
+    run_of_arc, place_of_arc = np.full(len(curve_arcs.curve), -1), np.zeros((2, len(curve_arcs.curve)))
+    run_of_arc[row], place_of_arc[:, row] = run, places
     owner, place = expand(np.zeros_like(count), count)
     offset = arcs.sweep[owner] * place / (count[owner] - 1)
     # an end stands for the half sample beside it: where balls touch, the very last arc of a horizon is often too short
     # to be seen, and has the neighbour behind it while all others have the background
     beside = arcs.sweep[owner] * np.clip(place, 0.5, count[owner] - 1.5) / (count[owner] - 1)
-    behind = _behind_at(view_map, row, first, last, owner, beside)
+    behind = _behind_at(view_map.right[row], sweep, first, last, owner, beside)
     t = arcs.start[owner] + offset
-    page = arcs.take(owner).at(t)
-    jump = _jumps(view_map, view, sphere[first][owner], behind, page)
-    return HorizonRuns(sphere[first], arcs, closed, before, after, horizons, start, t, behind, spacing, jump)
+    near = _nearness(view_map, view, row[first], row[last], line[first], owner, place / (count[owner] - 1))
+    jump = _jumps(view_map, view, near, owner_of[solid[owner]], behind, arcs.take(owner).at(t))
+    closed = origin[first] == target[last]
+    return HorizonRuns(
+        owner_of[solid], arcs, closed, *vertices, run_of_arc, place_of_arc, start, t, owner_of[behind], spacing, jump
+    )  # fmt: skip
+
+
+def _sweeps(arcs: PlaneArcs, line: Bools) -> Floats:
+    """The angles (a,) of arcs about the centres of their ellipses or, of lines, of their large circles."""
+    return np.where(line, np.hypot(*(arcs.ends() - arcs.starts()).T) / STRAIGHT, arcs.sweep)
+
+
+def _whole_runs(arcs: PlaneArcs, last: PlaneArcs, sweep: Floats, first: Ints, line: Bools) -> PlaneArcs:
+    """Runs from the first of their arcs (m,) to the last, counter-clockwise with their solids on the left."""
+    if not len(first):
+        return arcs
+    arcs = arcs._replace(sweep=np.add.reduceat(sweep, first))
+    begin, end = arcs.starts()[line], last.ends()[line]
+    half = (end - begin) / 2
+    left = np.column_stack([-half[:, 1], half[:, 0]]) / np.maximum(np.hypot(*half.T), np.finfo(float).tiny)[:, None]
+    arcs.c[line] = begin + half + left * np.sqrt(STRAIGHT**2 - dot(half, half))[:, None]
+    arcs.u[line] = begin - arcs.c[line]
+    arcs.v[line] = np.column_stack([-arcs.u[line][:, 1], arcs.u[line][:, 0]])
+    arcs.start[line] = 0.0
+    return arcs
+
+
+def _nearness(
+    view_map: VisibilityMap, view: View, first: Ints, last: Ints, line: Bools, owner: Ints, share: Floats
+) -> Floats:
+    """How near the samples are: all alike on a horizon, between both ends on a line."""
+    arcs, projection = view_map.curve_arcs, projection_of(view)
+    begin = projection.nearness(view_map.curves.at(arcs.curve[first], arcs.start[first]))
+    end = projection.nearness(view_map.curves.at(arcs.curve[last], (arcs.start + arcs.sweep)[last]))
+    sphere = np.where(line, 0, view_map.curves.first[arcs.curve[first]])
+    whole = occluders_of(view_map.spheres, view).nearness()[sphere]
+    return np.where(line[owner], begin[owner] + share * (end - begin)[owner], whole[owner])
+
+
+def _places(sweep: Floats, run: Ints, first: Ints, samples: Floats) -> Floats:
+    """The places (2, a) of the starts and ends of arcs that follow each other along their runs."""
+    reached = np.cumsum(sweep)
+    before = (reached - sweep)[first][run]
+    return np.maximum(np.stack([reached - sweep - before, reached - before]), 0.0) * samples[run]
+
+
+def _vertices(vertex: Ints, run: Ints, place: Floats, length: Floats, last: Ints) -> tuple[Vertices, Ints]:
+    """The table of the starts of all arcs, followed by their ends, and the rows of the runs' own starts and ends."""
+    place = np.minimum(place, last[run])
+    along = np.lexsort((place, run))
+    near = np.diff(place[along]) * (length / last)[run[along][1:]] < NODE
+    near &= run[along][1:] == run[along][:-1]
+    same = np.argsort(vertex, kind="stable")
+    again = vertex[same][1:] == vertex[same][:-1]
+    one = np.append(along[1:][near], same[1:][again])
+    other = np.append(along[:-1][near], same[:-1][again])
+    node = component_labels(one, other, len(vertex))
+    row_of = np.empty(len(vertex), dtype=np.int64)
+    row_of[same] = np.arange(len(vertex))
+    count = len(vertex) // 2
+    numbers = np.arange(len(last))
+    first, final = np.searchsorted(run[:count], numbers), np.searchsorted(run[:count], numbers, side="right") - 1
+    place[count + final] = last  # exactly
+    return Vertices(vertex[same], run[same], place[same], node[same]), row_of[np.stack([first, count + final])]
 
 
 def _width(arcs: PlaneArcs) -> float:
@@ -77,41 +173,17 @@ def _width(arcs: PlaneArcs) -> float:
     return float(np.max(np.max(arcs.c + half, axis=0, initial=0.0) - np.min(arcs.c - half, axis=0, initial=0.0)))
 
 
-def _met_at(view_map: VisibilityMap, row: Ints, end: Ints, vertex: Ints, own: Ints) -> Ints:
-    """The sphere at which a run of ``own`` ends at each vertex (m,): that of a horizon that runs on, or of a crease."""
-    curves, curve_arcs = view_map.curves, view_map.curve_arcs
-    above = _other_at(end, curves.first[curve_arcs.curve[row]], vertex, own)
-    crease = np.flatnonzero(view_map.is_crease())
-    ends = np.concatenate([curve_arcs.origin[crease], curve_arcs.target[crease]])
-    pair = [np.tile(column[curve_arcs.curve[crease]], 2) for column in (curves.first, curves.second)]
-    entered = [_other_at(ends, sphere, vertex, own) for sphere in pair]
-    return np.where(above >= 0, above, np.maximum(*entered))
-
-
-def _other_at(end: Ints, sphere: Ints, vertex: Ints, own: Ints) -> Ints:
-    """The sphere other than ``own`` a horizon arc of which has the given vertex at its ``end``, −1 where none has."""
-    order = np.argsort(end, kind="stable")
-    begin = np.searchsorted(end[order], vertex)
-    stop = np.searchsorted(end[order], vertex, side="right")
-    row, entry = expand(begin, stop)
-    there = sphere[order[entry]]
-    other = np.full(len(vertex), -1)
-    rows = np.flatnonzero(there != own[row])
-    other[row[rows]] = there[rows]
-    return other
-
-
-def _behind_at(view_map: VisibilityMap, row: Ints, first: Ints, last: Ints, owner: Ints, offset: Floats) -> Ints:
+def _behind_at(right: Ints, sweep: Floats, first: Ints, last: Ints, owner: Ints, offset: Floats) -> Ints:
     """The face on the right of the arc of its run on which each sample lies."""
-    reached = np.cumsum(view_map.arcs.sweep[row])
-    begin = reached[first] - view_map.arcs.sweep[row[first]]
+    reached = np.cumsum(sweep)
+    begin = (reached - sweep)[first]
     place = np.searchsorted(reached, begin[owner] + offset)
-    return view_map.right[row[np.clip(place, first[owner], last[owner])]]
+    return right[np.clip(place, first[owner], last[owner])]
 
 
-def _jumps(view_map: VisibilityMap, view: View, own: Ints, behind: Ints, page: Floats) -> Floats:
-    occluders = occluders_of(view_map.spheres, view)
-    surface = occluders.surface(np.maximum(behind, 0), page)
-    jump = np.maximum(occluders.nearness()[own] - surface, 0.0)  # rounding beside a silhouette of the surface: −∞
+def _jumps(view_map: VisibilityMap, view: View, near: Floats, own: Ints, behind: Ints, page: Floats) -> Floats:
+    solids = Solids(occluders_of(view_map.spheres, view), view_map.sticks)
+    surface, _ = solids.surfaces(solids.rows(np.maximum(behind, 0)), page, projection_of(view))
+    jump = np.maximum(near - surface, 0.0)  # rounding beside a silhouette of the surface: −∞
     own_radius = view_map.spheres.radius[own]
     return np.where(behind == BACKGROUND, np.inf, np.where(np.isfinite(jump), jump, own_radius))
