@@ -72,6 +72,10 @@ class PlaneArcs(NamedTuple):
         uu, vv, uv = (dot(x, y) for x, y in ((self.u, self.u), (self.v, self.v), (self.u, self.v)))
         return np.asarray(np.sqrt((uu + vv) / 2 + np.hypot((uu - vv) / 2, uv)))
 
+    def lengths(self) -> Floats:
+        """Return the lengths (k,) of arcs of circles with the same mean square of the half axes."""
+        return np.asarray(np.abs(self.sweep) * np.sqrt((dot(self.u, self.u) + dot(self.v, self.v)) / 2))
+
     def moved(self, scale: float, shift: Floats) -> "PlaneArcs":
         """Return the arcs after ``x → scale x + shift``."""
         return PlaneArcs(self.c * scale + shift, self.u * scale, self.v * scale, self.start, self.sweep)

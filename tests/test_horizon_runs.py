@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from molviz.model.spheres import Spheres
 from molviz.visibility.curves import HORIZON
-from molviz.visibility.eye import occluders_of, projection_of
-from molviz.visibility.horizon_runs import SPACING, HorizonRuns, horizon_runs
+from molviz.visibility.eye import occluders_of
+from molviz.visibility.horizon_runs import NODE, SPACING, HorizonRuns, horizon_runs
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.view import View, file_axes
 from tests.oracle import random_spheres
@@ -56,13 +56,14 @@ def test_what_is_behind_is_what_is_seen_just_outside(seed: int, distance: float 
     tangent = arcs.tangent(runs.t)
     outwards = np.column_stack([tangent[:, 1], -tangent[:, 0]]) / np.hypot(*tangent.T)[:, None]
     page = arcs.at(runs.t)
-    near, far = (surfaces(view_map, view, page + gap * outwards) for gap in (1e-5, 1e-3))
-    sure = (
-        ~ends
-        & (near.argmax(axis=1) == far.argmax(axis=1))
-        & ((near.max(axis=1) > -np.inf) == (far.max(axis=1) > -np.inf))
+    along = 1e-3 * tangent / np.hypot(*tangent.T)[:, None]
+    seen, *others = (
+        np.where(near.max(axis=1) > -np.inf, near.argmax(axis=1), BACKGROUND)
+        for near in (
+            surfaces(view_map, view, page + 1e-5 * outwards + shift) for shift in (0, along, -along, 1e-3 * outwards)
+        )
     )
-    seen = np.where(near.max(axis=1) > -np.inf, near.argmax(axis=1), BACKGROUND)
+    sure = ~ends & np.all(np.stack(others) == seen, axis=0)
     assert sure.mean() > 0.8 or len(owner) < 50
     assert np.array_equal(runs.behind[sure], seen[sure])
     rim = occluders_of(view_map.spheres, view).nearness()[runs.sphere[owner]]
@@ -76,19 +77,38 @@ def test_what_is_behind_is_what_is_seen_just_outside(seed: int, distance: float 
 @given(st.integers(0, 10**6), st.sampled_from(DISTANCES))
 @settings(max_examples=20)
 def test_runs_come_out_under_the_horizon_of_a_nearer_sphere(seed: int, distance: float | None) -> None:
+    """Or out of a ball, where no other horizon is."""
     view_map, view, runs = runs_of(seed, 30, distance)
-    projection = projection_of(view)
-    for host, point in ((runs.before, runs.arcs.starts()), (runs.after, runs.arcs.ends())):
-        rows = np.flatnonzero((host >= 0) & ~runs.closed)
-        assert np.all(host[rows] != runs.sphere[rows])
-        near = occluders_of(view_map.spheres, view).nearness()
-        rows = rows[near[host[rows]] > near[runs.sphere[rows]]]  # the others enter the ball of a farther one
-        images = view_map.horizons().take(host[rows])
-        for row, image in zip(rows.tolist(), range(len(rows)), strict=True):
-            t = np.linspace(0, 2 * np.pi, 4001)
-            circle = images.take(np.full(len(t), image)).at(np.arange(len(t)), t)
-            gap = np.hypot(*(projection.page_points(circle) - point[row]).T).min()
-            assert gap < 2e-3
+    near, vertices = occluders_of(view_map.spheres, view).nearness(), runs.vertices
+    for ends, point in zip(runs.ends, (runs.arcs.starts(), runs.arcs.ends()), strict=True):
+        above = vertices.on_other_run(ends)
+        rows = np.flatnonzero((above >= 0) & ~runs.closed)
+        run, place = vertices.run[above[rows]], vertices.place[above[rows]]
+        host = runs.arcs.take(run)
+        there = host.at(host.start + host.sweep * place / runs.last()[run])
+        assert np.allclose(there, point[rows], atol=1e-6)
+        assert np.all(near[runs.sphere[run]] > near[runs.sphere[rows]])
+
+
+@given(st.integers(0, 10**6), st.sampled_from(DISTANCES))
+@settings(max_examples=20)
+def test_vertices_lie_on_their_runs_and_near_ones_are_one_node(seed: int, distance: float | None) -> None:
+    view_map, _, runs = runs_of(seed, 30, distance)
+    row = np.flatnonzero(runs.run_of_arc >= 0)
+    assert np.array_equal(row, np.flatnonzero(~view_map.is_crease()))
+    run = runs.run_of_arc[row]
+    arcs = runs.arcs.take(run)
+    for place, points in zip(runs.place_of_arc[:, row], (view_map.arcs.starts(), view_map.arcs.ends()), strict=True):
+        assert np.allclose(arcs.at(arcs.start + arcs.sweep * place / runs.last()[run]), points[row], atol=1e-6)
+    vertices = runs.vertices
+    assert np.all(np.diff(vertices.vertex) >= 0) and np.all(vertices.run[runs.ends] == np.arange(len(runs.sphere)))
+    order = np.lexsort((vertices.place, vertices.run))
+    one, other = order[:-1], order[1:]
+    step = (runs.length() / runs.last())[vertices.run[one]]
+    close = (vertices.run[one] == vertices.run[other]) & ((vertices.place[other] - vertices.place[one]) * step < NODE)
+    assert np.all(vertices.node[one[close]] == vertices.node[other[close]])
+    same = np.diff(vertices.vertex) == 0
+    assert np.all(np.diff(vertices.node)[same] == 0)
 
 
 def test_a_ball_before_a_floor() -> None:

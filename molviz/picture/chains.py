@@ -17,6 +17,11 @@ class Chains(NamedTuple):
     start: Ints  # (chains + 1,)
     closed: Bools  # (chains,)
 
+    def take(self, rows: Ints) -> "Chains":
+        """Return the given chains, in that order."""
+        place, start = lists_taken(self.start, rows)
+        return Chains(self.half_edge[place], start, self.closed[rows])
+
 
 def linked(origin: Ints, target: Ints, curve: Ints, arcs: Ints) -> Chains:
     """Return the given arcs as chains, as long as they can be.

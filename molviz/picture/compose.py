@@ -10,11 +10,13 @@ from molviz.curves import Paths, PlaneArcs
 from molviz.geometry.rows import offsets
 from molviz.model.molecule import Molecule
 from molviz.picture.captions import labels_of, legend_of
-from molviz.picture.chains import linked, linked_apart, merged_arcs
+from molviz.picture.chains import Chains, linked, linked_apart, merged_arcs
 from molviz.picture.coloring import order_of_appearance
 from molviz.picture.furniture import Box, Furnished, Furniture, Label, Ramp, Swatches, furnish
 from molviz.picture.hatching import LEVELS, hatched, level_distance, tone_levels
-from molviz.picture.ink import OUTSIDE, in_colors, line_widths, outlined, strokes_of
+from molviz.picture.ink import SPUR, Widths, at_places, line_widths
+from molviz.picture.ink_pockets import inked_arcs, pockets
+from molviz.picture.ink_shapes import NECK, OUTSIDE, in_colors, inked
 from molviz.picture.looks import (
     NEARER_BY,
     Looks,
@@ -261,7 +263,7 @@ class MapComposer:
         for role, width in ((CREASE, self.widths[1]), (OUTLINE, self.widths[0]), (SILHOUETTE, self.widths[0])):
             rows = np.flatnonzero(roles == role)
             if role == CREASE:
-                rows = rows[self.wanted_creases[rows]]
+                rows = self.without_crumbs(self.wanted_creases & ((roles == CREASE) | (roles == OUTLINE)))
             if width > 0 and len(rows):
                 opacity = self.style.lines.crease_opacity if role == CREASE else 1.0
                 paths, below = self.lines_by_ground(rows) if opacity < 1 else (self.lines(rows), [])
@@ -286,31 +288,65 @@ class MapComposer:
 
     @cached_property
     def wanted_creases(self) -> Bools:
-        """Which arcs lie where the style wants creases."""
+        """Which arcs lie where the style wants creases: where it wants all, also inner horizons with thinner ink."""
+        creases = self.map.is_crease()
         if self.style.lines.crease_where == "all":
-            return np.ones(len(self.map.left), dtype=bool)
+            if self.inking is None:
+                return creases
+            thinner = inked_arcs(*self.inking[:2]).min(axis=0) < self.widths[1] / self.scale
+            return np.asarray(creases | thinner)
         group = np.append(self.looks.group, -1)
-        between: Bools = group[self.map.left] != group[self.map.right]
-        return between
+        return np.asarray(creases & (group[self.map.left] != group[self.map.right]))
+
+    def without_crumbs(self, wanted: Bools) -> Ints:
+        """Return the wanted arcs (k,) as rows, those of crumbs left out."""
+        rows, on_curves = np.flatnonzero(wanted), self.map.curve_arcs
+        if not len(rows):
+            return rows
+        chains = linked(on_curves.origin, on_curves.target, on_curves.curve, rows)
+        return np.sort(chains.take(np.flatnonzero(~self.crumbs(chains))).half_edge >> 1)
+
+    def crumbs(self, chains: Chains) -> Bools:
+        """Return which chains (c,) of creases are short and meet neither ink nor another crease at either end."""
+        if self.inking is None:
+            return np.zeros(len(chains.closed), dtype=bool)
+        runs, widths, _ = self.inking
+        origin, at = self.map.edges.origin, runs.vertices
+        length = np.add.reduceat(self.map.arcs.lengths()[chains.half_edge >> 1], chains.start[:-1])
+        ends = origin[np.stack([chains.half_edge[chains.start[:-1]], chains.half_edge[chains.start[1:] - 1] ^ 1])]
+        known, count = np.unique(origin[np.append(chains.half_edge, chains.half_edge ^ 1)], return_counts=True)
+        inked = at.vertex[at_places(widths.width, runs, at.run, at.place) > 0]
+        meets = (np.isin(ends, inked) | np.isin(ends, known[count > 1])).any(axis=0)
+        return np.asarray(~chains.closed & ~meets & (length < SPUR))
+
+    @cached_property
+    def inking(self) -> tuple[HorizonRuns, Widths, float] | None:
+        """The lines of varying width, and the gap between two of them that ink fills; None where there are none."""
+        style = self.style.ink.scaled_to(self.options.outline, self.scale)
+        if not style.silhouette.at(self.scale) or self.options.is_mask:
+            return None
+        crease = self.widths[1] / self.scale if self.style.lines.crease_where == "between" else 0.0
+        widths = line_widths(self.runs, self.looks.group, self.looks.far, style, self.scale, crease)
+        if self.style.colors.scheme not in BY_PALETTE:  # things are not told apart by their inks
+            widths = widths._replace(dark=np.ones_like(widths.dark))
+        return self.runs, widths, NECK * style.silhouette.at(self.scale)
 
     def ink(self) -> list[Layer]:
         """Return lines of varying width: dark ones around things, the things' own within them; far ones first."""
-        style = self.style.ink.scaled_to(self.options.outline, self.scale)
-        if not style.silhouette.at(self.scale) or self.options.is_mask:
+        if self.inking is None:
             return []
-        runs, looks = self.runs, self.looks
-        widths = line_widths(runs, looks.group, looks.far, style, self.scale)
-        strokes, paths = outlined(runs, widths, strokes_of(runs, widths))
-        if not len(strokes.run):
+        strokes, paths, dark = inked(*self.inking)
+        filled = pockets(self.map, *self.inking)
+        paths, dark = stacked([filled.paths, paths]), np.append(filled.dark, dark)
+        sphere, looks = self.runs.sphere[np.append(filled.run, strokes.run)], self.looks
+        if not len(sphere):
             return []
-        sphere = runs.sphere[strokes.run]
         far_class = np.minimum((looks.far[sphere] * INK_CLASSES).astype(np.int64), INK_CLASSES - 1)
         share = INK_FOG * self.style.fog.strength * (far_class + 0.5) / INK_CLASSES
-        dark = np.where(strokes.dark[:, None], self.dark_ink, looks.ink[sphere])
-        color = mix(dark, self.haze, share)
-        paths, distinct = in_colors(paths, np.column_stack([-far_class, color]))
+        color = mix(np.where(dark[:, None], self.dark_ink, looks.ink[sphere]), self.haze, share)
+        paths, distinct = in_colors(paths, np.column_stack([-far_class, dark, color]))
         paths = paths._replace(arcs=paths.arcs.moved(self.placement.scale, self.placement.shift))
-        return [FillLayer("ink", paths, colors_of(distinct[:, 1:]), [region_mark("", "ink")] * len(distinct))]
+        return [FillLayer("ink", paths, colors_of(distinct[:, 2:]), [region_mark("", "ink")] * len(distinct))]
 
 
 def picture_of_map(view_map: VisibilityMap, view: View, subject: Subject, options: DrawOptions) -> Picture:

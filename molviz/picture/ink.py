@@ -1,36 +1,35 @@
-"""Ink: lines of varying width along horizons, as filled shapes bounded by arcs of circles.
+"""Ink: how wide lines along horizons are, and where they are in which ink.
 
 A line is the heavier the farther the surface behind it lies, and the heaviest before the background; where both sides
-are nearly level it ends in a point. Where a line passes under the horizon of a nearer sphere, or enters another's ball,
-its two sides end on that sphere's horizon.
+are nearly level it ends in a point. Widths never jump: where what lies behind changes at once, the heavier line fades
+into the lighter one; no line is wider at its
+end than another one that it meets there.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.curves import Paths, PlaneArcs, straight_pieces
-from molviz.geometry.rows import expand, lists_taken, offsets
-from molviz.vectors import cross, dot
 from molviz.visibility.horizon_runs import HorizonRuns
 from molviz.visibility.map import BACKGROUND
 
-OUTSIDE = 0.6  # of the width lies outside the horizon
-SIGMA = 0.35  # ångström, of the smoothing of widths along a line
-SIGMA_INK = 0.5  # ångström, of the smoothing of where which ink is used
-SHORTEST_INK = 1.0  # ångström: a line changes its ink for no less
+SIGMA = 0.2  # ångström, of the smoothing of widths along a line
+LEVEL = 0.15  # ångström for which a line keeps its width where a lighter one takes over
+FADE = 0.9  # ångström in which it would then fade to nothing
+SIGMA_INK = 0.2  # ångström, of the smoothing of where the dark ink is used
+INK_GAP = 2.0  # ångström: shorter stretches of a thing's own ink between dark ones are dark
+INK_BEYOND = 0.4  # ångström by which the dark ink goes on beyond where it is due
 THINNEST = 0.035  # ångström: a thinner line is not drawn
 THINNEST_SHARE = 0.13  # of the widest inner line
-ARC = 7.5  # samples along a line's side that one arc of a circle stands for: 1.5 Å unless giants are drawn
-LONGEST_CUT = 1.2  # ångström by which a side may be cut
-LONGEST_TIP = 4.0  # of its distance from the horizon, by which a side may be prolonged: longer tips are thorns
-SPUR = 1.1  # ångström: shorter lines are dropped unless both ends are wide
-SPUR_SHARE = 0.4  # of the widest inner line
+CORNER = 0.8  # ångström before it enters a ball in which a line ends where another passes under it
+SPUR = 1.1  # ångström: shorter lines are dropped if they are thin or meet no other
+THINNER = 0.4  # of a line's width: it is not made so thin where another one ends with it
+STUB = 0.5  # ångström: shorter lines are dropped unless they meet two others
+SPUR_SHARE = 0.4  # of the widest inner line: such lines are thin
 FARTHER_THINNER = 0.3  # by which lines of the farthest spheres are thinner
-NOTHING = 1e-9  # square ångström: a stroke of less ink is none
-MITRE_STEPS = 6  # of Newton's method, from a guess within a width of the end
 
 
 @dataclass(frozen=True)
@@ -73,10 +72,11 @@ class InkStyle:
 
 
 class Widths(NamedTuple):
-    """Along the samples of runs: width in ångström, 0 where nothing is drawn, and whether the dark ink is used."""
+    """Along the samples of runs: width in ångström, 0 where nothing is drawn, and how much of it the dark ink takes."""
 
     width: Floats  # (s,)
-    dark: Bools  # (s,)
+    dark: Floats  # (s,) from 0 to 1
+    ends: Ints  # (2, m) rows of the runs' vertices between which they have ink
 
 
 def smooth_step(x: Floats) -> Floats:
@@ -85,250 +85,197 @@ def smooth_step(x: Floats) -> Floats:
     return np.asarray(x * x * (3.0 - 2.0 * x))
 
 
-def line_widths(runs: HorizonRuns, group: Ints, far: Floats, style: InkStyle, scale: float) -> Widths:
+def line_widths(
+    runs: HorizonRuns, group: Ints, far: Floats, style: InkStyle, scale: float, crease: float = 0.0
+) -> Widths:
     """Return the widths along runs; ``group`` (n,) tells which spheres belong together, ``far`` (n,) how far they are.
 
-    ``far`` runs from 0 for the nearest sphere to 1 for the farthest.
+    ``far`` runs from 0 for the nearest sphere to 1 for the farthest. Lines before another group that end where a ball
+    begins end as wide as the ``crease``, in ångström, that goes on there.
     """
-    owner = runs.owner()
-    own = runs.sphere[owner]
+    own = runs.sphere[runs.owner()]
     background = runs.behind == BACKGROUND
     foreign = ~background & (group[runs.behind] != group[own])
     silhouette, between, inside = (pen.at(scale) for pen in (style.silhouette, style.between, style.inside))
     ramp = smooth_step((runs.jump - style.faint) / (style.full - style.faint))
     width = np.where(background, silhouette, np.where(foreign, between * (0.5 + 0.5 * ramp), inside * ramp))
-    width = _smoothed(width * (1.0 - FARTHER_THINNER * far[own]), runs, SIGMA)
-    dark = _without_short(_smoothed((background | foreign).astype(float), runs, SIGMA_INK) > 0.5, runs)
-    width[width < max(THINNEST, THINNEST_SHARE * inside)] = 0.0
-    width[_spurs(runs, width, SPUR_SHARE * inside)[owner]] = 0.0
-    return Widths(width, dark)
+    width = _smoothed(_fading(width * (1.0 - FARTHER_THINNER * far[own]), runs), runs, SIGMA)
+    thinnest = max(THINNEST, THINNEST_SHARE * inside)
+    width[width < thinnest] = 0.0
+    width[_spurs(runs, width, SPUR_SHARE * inside)] = 0.0
+    width, ends = _entering(width, runs, np.where(foreign, crease, 0.0))
+    width[width < thinnest] = 0.0
+    return Widths(_joining(width, runs, ends), _dark_share(background | foreign, runs), ends)
 
 
-def _without_short(dark: Bools, runs: HorizonRuns) -> Bools:
-    """The inks along runs; stretches of one ink below SHORTEST_INK, and below those beside them, take on their ink."""
+def _along(runs: HorizonRuns, reach: float) -> Iterator[tuple[float, Ints]]:
+    """Distances of up to ``reach`` ångström both ways, and the samples so far from each.
+
+    Closed runs go all round; ends count as if they went on.
+    """
     owner = runs.owner()
-    begins = np.append(True, (owner[1:] != owner[:-1]) | (dark[1:] != dark[:-1]))[: len(dark)]
-    first = np.flatnonzero(begins)
-    run, length = owner[first], np.diff(np.append(first, len(dark))) * runs.spacing
-    after = np.append(np.where(run[1:] == run[:-1], length[1:], np.nan), np.nan)[: len(first)]
-    before = np.append(np.nan, np.where(run[1:] == run[:-1], length[:-1], np.nan))[: len(first)]
-    longer = ~(before <= length) & ~(after <= length) & ~(np.isnan(before) & np.isnan(after))
-    return np.asarray(dark ^ ((length < SHORTEST_INK) & longer)[np.cumsum(begins) - 1])
+    place, count = np.arange(len(owner)) - runs.start[owner], np.diff(runs.start)[owner]
+    steps = int(np.ceil(reach / runs.spacing))
+    for step in range(-steps, steps + 1):
+        wrapped = np.mod(place + step, np.maximum(count - 1, 1))  # the last sample of a closed run is the first
+        other = np.where(runs.closed[owner], wrapped, np.clip(place + step, 0, count - 1))
+        yield abs(step) * runs.spacing, runs.start[owner] + other
 
 
 def _smoothed(values: Floats, runs: HorizonRuns, sigma: float) -> Floats:
-    """Gaussian means along each run, closed ones all round; ends count as if they went on."""
-    owner = runs.owner()
-    place = np.arange(len(values)) - runs.start[owner]
-    count = np.diff(runs.start)[owner]
-    reach = int(np.ceil(3 * sigma / runs.spacing))
+    """Gaussian means along each run."""
     total, weights = np.zeros(len(values)), 0.0
-    for step in range(-reach, reach + 1):
-        weight = np.exp(-0.5 * (step * runs.spacing / sigma) ** 2)
-        wrapped = np.mod(place + step, np.maximum(count - 1, 1))  # the last sample of a closed run is the first
-        other = np.where(runs.closed[owner], wrapped, np.clip(place + step, 0, count - 1))
-        total += weight * values[runs.start[owner] + other]
+    for distance, other in _along(runs, 3 * sigma):
+        weight = np.exp(-0.5 * (distance / sigma) ** 2)
+        total += weight * values[other]
         weights += weight
     return np.asarray(total / weights)
 
 
-def _spurs(runs: HorizonRuns, width: Floats, thin: float) -> Bools:
-    """Which open runs are short and thin at one end."""
-    ends = np.minimum(width[runs.start[:-1]], width[runs.start[1:] - 1])
-    return ~runs.closed & (runs.length() < SPUR) & (ends < thin)
+def _fading(width: Floats, runs: HorizonRuns) -> Floats:
+    """The widths, and beside heavier stretches what is left of these: ``max w (1 + (LEVEL − distance) / FADE)``."""
+    most = width.copy()
+    for distance, other in _along(runs, LEVEL + FADE):
+        np.maximum(most, width[other] * min(1.0, 1.0 + (LEVEL - distance) / FADE), out=most)
+    return most
 
 
-class Strokes(NamedTuple):
-    """Stretches of runs that are drawn in one ink, from parameter ``first`` to ``last``."""
-
-    run: Ints  # (k,)
-    first: Floats  # (k,) samples, fractional counts from the run's start
-    last: Floats  # (k,)
-    dark: Bools  # (k,)
-    at_start: Bools  # (k,) begins where the run begins
-    at_end: Bools  # (k,)
-    whole: Bools  # (k,) a closed run altogether
-
-    def take(self, rows: Ints) -> "Strokes":
-        """Return the given rows, in that order."""
-        ends = self.at_start[rows], self.at_end[rows]
-        return Strokes(self.run[rows], self.first[rows], self.last[rows], self.dark[rows], *ends, self.whole[rows])
+def _largest(values: Floats, runs: HorizonRuns, reach: float) -> Floats:
+    """The largest value within ``reach`` ångström along each run."""
+    most = values.copy()
+    for _, other in _along(runs, reach):
+        np.maximum(most, values[other], out=most)
+    return most
 
 
-def strokes_of(runs: HorizonRuns, widths: Widths) -> Strokes:
-    """Return the stretches of positive width and one ink; they end in a point where the width vanishes."""
+def _dark_share(due: Bools, runs: HorizonRuns) -> Floats:
+    """How much of a line's width the dark ink takes: all of it where it is due and a little beyond, then less."""
+    closed = -_largest(-_largest(due.astype(float), runs, INK_GAP / 2), runs, INK_GAP / 2 - INK_BEYOND)
+    return _smoothed(closed, runs, SIGMA_INK)
+
+
+def distances_from_ends(runs: HorizonRuns) -> tuple[Floats, Floats]:
+    """Return how far along its run each sample (s,) is from the start and from the end, in ångström."""
     owner = runs.owner()
-    drawn = widths.width > 0
-    state = np.where(drawn, 1 + widths.dark, 0)
-    joined = np.append(False, (owner[1:] == owner[:-1]) & (state[1:] == state[:-1]))
-    first = np.flatnonzero(~joined & drawn)
-    last = np.flatnonzero(~np.append(joined[1:], False) & drawn)
+    place, last = np.arange(len(owner)) - runs.start[owner], (np.diff(runs.start) - 1)[owner]
+    step = runs.length()[owner] / last
+    return place * step, (last - place) * step
+
+
+def _edges(runs: HorizonRuns) -> tuple[Ints, Ints]:
+    """The first and the last sample of each run."""
+    return runs.start[:-1], runs.start[1:] - 1
+
+
+def _entering(width: Floats, runs: HorizonRuns, least: Floats) -> tuple[Floats, Ints]:
+    """The widths, fading to ``least`` (s,) where horizons enter balls, and the vertices' rows (2, m) where lines end.
+
+    A line that enters a ball just after another has passed under it makes a corner with that one: it ends there, as
+    wide as it is.
+    """
+    owner, ends = runs.owner(), runs.ends.copy()
+    for end, distance in enumerate(distances_from_ends(runs)):
+        row, away = _last_vertices(width, runs, end)
+        met = np.where(away < np.inf, widest_other(width, runs, row) > 0, True)
+        enters = ~runs.closed & (runs.vertices.on_other_run(runs.ends[end]) < 0)
+        corner = enters & met & (away < CORNER)
+        ends[end] = np.where(corner, row, ends[end])
+        reach = np.where(met, np.minimum(away, FADE), FADE)[owner]
+        fades = (enters & ~corner)[owner] & (distance < reach) & (width > least)
+        width = np.where(fades, least + (width - least) * distance / reach, width)
+    return width, ends
+
+
+def _last_vertices(width: Floats, runs: HorizonRuns, end: int) -> tuple[Ints, Floats]:
+    """The row of the last vertex before the start (``end`` 0) or end (1) of each run, and ångström from there.
+
+    Within reach of a corner those count first in which a drawn line ends. Infinite, and the end itself, where there is
+    none.
+    """
+    vertices, last = runs.vertices, runs.last()
+    inner = np.flatnonzero((vertices.place > 0) & (vertices.place < last[vertices.run]))
+    run, place = vertices.run[inner], vertices.place[inner]
+    distance = np.abs(end * last[run] - place) * (runs.length() / last)[run]
+    partner = vertices.on_other_run(inner)
+    meets = (partner >= 0) & (at_places(width, runs, vertices.run[partner], vertices.place[partner]) > 0)
+    order = np.lexsort((-distance, meets & (distance < CORNER), run))
+    row, away = runs.ends[end].copy(), np.full(len(last), np.inf)
+    row[run[order]], away[run[order]] = inner[order], distance[order]  # the last one written is the nearest
+    return row, away
+
+
+def at_places(values: Floats, runs: HorizonRuns, run: Ints, place: Floats) -> Floats:
+    """Return the values of samples (s,) between samples: at places (q,), fractional counts from the runs' starts.
+
+    Places beyond the end of a closed run lie in its next turn.
+    """
+    last = (np.diff(runs.start) - 1)[run]
+    place = np.where(runs.closed[run], np.mod(place, last), np.clip(place, 0, last))
+    low = np.minimum(place.astype(np.int64), last - 1)
+    share, begin = place - low, runs.start[run]
+    return np.asarray(values[begin + low] * (1 - share) + values[begin + low + 1] * share)
+
+
+def widest_other(width: Floats, runs: HorizonRuns, row: Ints) -> Floats:
+    """Return the width of the widest line at the nodes of the given vertices' rows (q,), their own runs left out."""
+    vertices = runs.vertices
+    here = at_places(width, runs, vertices.run, vertices.place)
+    order = np.argsort(here, kind="stable")
+    best, second = np.full(len(here), -1), np.zeros(len(here))
+    best[vertices.node[order]] = vertices.run[order]  # by node; the last one written is the widest
+    widest = np.zeros(len(here))
+    np.maximum.at(widest, vertices.node, here)
+    other = np.flatnonzero(vertices.run != best[vertices.node])
+    np.maximum.at(second, vertices.node[other], here[other])
+    node = vertices.node[row]
+    return np.where(best[node] == vertices.run[row], second[node], widest[node])
+
+
+def _joining(width: Floats, runs: HorizonRuns, ends: Ints) -> Floats:
+    """The widths, less towards ``ends`` where the other line there is thinner; points where there is none.
+
+    Where that line is much thinner, and for silhouettes, which go on across nodes, the widest one of the node counts.
+    """
+    owner, eased = runs.owner(), width.copy()
+    from_start, _ = distances_from_ends(runs)
+    for row, edge in zip(ends, _edges(runs), strict=True):
+        there = runs.vertices.place[row] * runs.length() / runs.last()
+        distance = np.abs(from_start - there[owner])
+        own = at_places(width, runs, runs.vertices.run[row], runs.vertices.place[row])
+        partner = runs.vertices.on_other_run(row)
+        other = at_places(width, runs, runs.vertices.run[partner], runs.vertices.place[partner])
+        silhouette = runs.behind[edge] == BACKGROUND
+        other = np.where((other > THINNER * own) & ~silhouette, other, widest_other(width, runs, row))
+        share = np.minimum(other / np.where(own > 0, own, 1.0), 1.0)
+        joins = ~runs.closed & (own > 0) & (partner >= 0)
+        close = np.where(joins[owner], 1.0 - smooth_step(distance / FADE), 0.0)
+        eased *= 1.0 - (1.0 - share[owner]) * close
+    return eased
+
+
+def _spurs(runs: HorizonRuns, width: Floats, thin: float) -> Bools:
+    """Which samples belong to stretches of line that are short, and thin or without another line at either end."""
+    owner, drawn = runs.owner(), width > 0
+    first = np.flatnonzero(drawn & ~np.append(False, drawn[:-1] & (owner[1:] == owner[:-1]))[: len(drawn)])
+    last = np.flatnonzero(drawn & ~np.append(drawn[1:] & (owner[1:] == owner[:-1]), False)[: len(drawn)])
     run = owner[first]
-    begin, end = runs.start[run], runs.start[run + 1] - 1
-    at_start, at_end = first == begin, last == end
-    # one sample farther: the point in which the line ends, or the place where the other ink takes over
-    beyond = np.minimum(last + 1, len(drawn) - 1)
-    low = (first - begin).astype(float) - np.where(at_start, 0.0, np.where(drawn[first - 1], 0.5, 1.0))
-    high = (last - begin).astype(float) + np.where(at_end, 0.0, np.where(drawn[beyond], 0.5, 1.0))
-    closed = runs.closed[run]
-    whole = closed & at_start & at_end
-    return Strokes(run, low, high, widths.dark[first], at_start & ~closed, at_end & ~closed, whole)
-
-
-def outlined(runs: HorizonRuns, widths: Widths, strokes: Strokes) -> tuple[Strokes, Paths]:
-    """Return one shape of one loop per stroke, the ink inside: arcs through three points of either side each.
-
-    Strokes of which the cuts at their two ends leave nothing are left out.
-    """
-    pieces = np.maximum(np.ceil((strokes.last - strokes.first) / ARC).astype(np.int64), 1)
-    owner, place = expand(np.zeros_like(pieces), 2 * pieces + 1)
-    share = place / (2 * pieces[owner])
-    sample = strokes.first[owner] + share * (strokes.last - strokes.first)[owner]
-    run = strokes.run[owner]
-    width = _interpolated(widths.width, runs.start[run], sample, runs.start[run + 1] - 1)
-    last_sample = np.diff(runs.start) - 1
-    t = runs.arcs.start[run] + runs.arcs.sweep[run] * sample / last_sample[run]
-    sides = [
-        _mitred(runs, strokes, owner, place, pieces, t, offset)
-        for offset in (OUTSIDE * width, (OUTSIDE - 1.0) * width)
+    length = runs.length()[run] * (last - first) / (np.diff(runs.start)[run] - 1)
+    joins = [
+        (edge == _edges(runs)[end][run]) & (widest_other(width, runs, runs.ends[end][run]) > 0)
+        for end, edge in enumerate((first, last))
     ]
-    return _with_ink(strokes, _loops(strokes, runs, pieces, owner, place, sides[0], sides[1]))
+    meets = joins[0].astype(int) + joins[1] + _met_by_others(runs, width, first, last)
+    size = np.maximum.reduceat(width, first) if len(first) else np.empty(0)
+    spur = (length < SPUR) & ~runs.closed[run] & ((size < thin) | (meets == 0) | ((length < STUB) & (meets < 2)))
+    of_stretch = np.cumsum(np.bincount(first, minlength=len(drawn))) - 1
+    return np.asarray(drawn & (spur[of_stretch] if len(spur) else False))
 
 
-def _with_ink(strokes: Strokes, paths: Paths) -> tuple[Strokes, Paths]:
-    """The strokes and shapes with ink inside: where a cut reaches across the other end, a shape is inside out."""
-    area = np.add.reduceat(paths.arcs.signed_area(), paths.loop_start[:-1])[paths.shape_start[:-1]]
-    kept = np.flatnonzero(area > NOTHING)
-    return strokes.take(kept), _shapes_taken(paths, kept)
-
-
-def _shapes_taken(paths: Paths, shapes: Ints) -> Paths:
-    loop, shape_start = lists_taken(paths.shape_start, shapes)
-    arc, loop_start = lists_taken(paths.loop_start, loop)
-    return Paths(paths.arcs.take(arc), loop_start, shape_start)
-
-
-def _interpolated(values: Floats, begin: Ints, sample: Floats, end: Ints) -> Floats:
-    low = np.floor(sample).astype(np.int64)
-    share = sample - low
-    return np.asarray(values[begin + low] * (1 - share) + values[np.minimum(begin + low + 1, end)] * share)
-
-
-def _beside(arcs: PlaneArcs, t: Floats, offset: Floats) -> Floats:
-    """Points beside curves, ``offset`` outwards: on the right of the way."""
-    tangent = arcs.tangent(t)
-    normal = np.column_stack([tangent[:, 1], -tangent[:, 0]]) / np.hypot(*tangent.T)[:, None]
-    return np.asarray(arcs.at(t) + offset[:, None] * normal)
-
-
-def _mitred(
-    runs: HorizonRuns, strokes: Strokes, owner: Ints, place: Ints, pieces: Ints, t: Floats, offset: Floats
-) -> Floats:
-    """The points of one side of all strokes; at ends of runs the last points lie on the horizon of the sphere there."""
-    run = strokes.run[owner]
-    arcs = runs.arcs.take(run)
-    shift = np.zeros(len(t))
-    for at_end, host, end_place, onward in (
-        (strokes.at_start, runs.before, np.zeros_like(pieces), -1.0),
-        (strokes.at_end, runs.after, 2 * pieces, 1.0),
-    ):
-        last = np.flatnonzero((place == end_place[owner]) & at_end[owner] & (host[run] >= 0))
-        moved = _to_horizon(runs, arcs.take(last), host[run[last]], t[last], offset[last], onward)
-        # the points of the last arc follow: half of the way for the one in the middle
-        shift[last] += moved
-        shift[last + np.where(end_place[owner[last]] == 0, 1, -1)] += moved / 2
-    return _beside(arcs, _forwards(t, shift, owner, pieces), offset)
-
-
-def _forwards(t: Floats, shift: Floats, owner: Ints, pieces: Ints) -> Floats:
-    """The shifted parameters; where the cuts at the two ends of a short side pass each other it is one point."""
-    last = np.cumsum(2 * pieces + 1) - 1
-    first = last - 2 * pieces
-    begin, end = (t + shift)[first], (t + shift)[last]
-    point = np.where(shift[last] == 0, end, np.where(shift[first] == 0, begin, (begin + end) / 2))
-    return np.asarray(np.where((end < begin)[owner], point[owner], t + shift))
-
-
-def _to_horizon(
-    runs: HorizonRuns, arcs: PlaneArcs, host: Ints, t: Floats, offset: Floats, onward: float
-) -> Floats:
-    """By how much each end must move along its curve to lie on the image of the host's horizon; 0 if that is far.
-
-    ``onward`` is the direction, 1 or −1, in which lines go on beyond these ends.
-    """
-    ellipse = runs.horizons.take(host)
-    size, step = arcs.major(), np.zeros(len(t))
-    cut, tip = -onward * LONGEST_CUT / size, onward * LONGEST_TIP * np.abs(offset) / size
-    low, high = np.minimum(cut, tip), np.maximum(cut, tip)
-    for _ in range(MITRE_STEPS):
-        value, slope = _inside(ellipse, arcs, t + step, offset)
-        step = step - np.where(np.abs(slope) > 1e-9, value / np.where(slope == 0, 1.0, slope), 0.0)
-        step = np.clip(step, low, high)
-    value, _ = _inside(ellipse, arcs, t + step, offset)
-    return np.asarray(np.where(np.abs(value) < 1e-6, step, 0.0))
-
-
-def _inside(ellipse: PlaneArcs, arcs: PlaneArcs, t: Floats, offset: Floats) -> tuple[Floats, Floats]:
-    """``(p×v / u×v)² + (u×p / u×v)² − 1`` at the offset points relative to the ellipses, and its slope along t."""
-    tangent = arcs.tangent(t)
-    size = np.hypot(*tangent.T)
-    p = _beside(arcs, t, offset) - ellipse.c
-    direction = tangent * (1 + offset / size)[:, None]
-    area = cross(ellipse.u, ellipse.v)
-    x, y = cross(p, ellipse.v) / area, cross(ellipse.u, p) / area
-    dx, dy = cross(direction, ellipse.v) / area, cross(ellipse.u, direction) / area
-    return x * x + y * y - 1.0, 2 * (x * dx + y * dy)
-
-
-def _loops(
-    strokes: Strokes, runs: HorizonRuns, pieces: Ints, owner: Ints, place: Ints, outer: Floats, inner: Floats
-) -> Paths:
-    """Outer side forwards, cap, inner side backwards, cap; two loops where the stroke is a ring."""
-    first = np.cumsum(2 * pieces + 1) - (2 * pieces + 1)
-    arc_owner, arc_place = expand(np.zeros_like(pieces), pieces)
-    row = first[arc_owner] + 2 * arc_place
-    forwards = arcs_through(outer[row], outer[row + 1], outer[row + 2])
-    backwards = arcs_through(inner[row + 2], inner[row + 1], inner[row])
-    last = first + 2 * pieces
-    end_cap, start_cap = straight_pieces(outer[last], inner[last]), straight_pieces(inner[first], outer[first])
-    loop = np.concatenate([arc_owner, np.arange(len(pieces)), arc_owner, np.arange(len(pieces))])
-    part = np.repeat([0, 1, 2, 3], [len(arc_owner), len(pieces), len(arc_owner), len(pieces)])
-    along = np.concatenate([arc_place, np.zeros(len(pieces)), -arc_place, np.zeros(len(pieces))])
-    everything = PlaneArcs(*map(np.concatenate, zip(forwards, end_cap, backwards, start_cap, strict=True)))
-    ring = strokes.whole[loop]
-    keep = ~(ring & (part % 2 == 1))
-    number = 2 * loop + (ring & (part == 2))
-    order = np.lexsort((along, part, number))
-    order = order[keep[order]]
-    _, loop_first = np.unique(number[order], return_index=True)
-    loop_start = np.append(loop_first, len(order))
-    shape_start = offsets(loop[order][loop_first], len(pieces))
-    return Paths(everything.take(order), loop_start, shape_start)
-
-
-def arcs_through(start: Floats, middle: Floats, end: Floats) -> PlaneArcs:
-    """Return the arcs of circles through three points each, straight where these are nearly in a line."""
-    a, b = middle - start, end - start
-    area, size = 2 * cross(a, b), dot(b, b)
-    flat = np.abs(area) <= 1e-6 * np.maximum(size, dot(a, a))
-    aa, divisor = dot(a, a), np.where(flat, 1.0, area)
-    center = np.column_stack([b[:, 1] * aa - a[:, 1] * size, a[:, 0] * size - b[:, 0] * aa]) / divisor[:, None]
-    u = -center
-    v = np.column_stack([-u[:, 1], u[:, 0]])
-    to_end = b - center
-    angle = np.mod(np.arctan2(dot(v, to_end), dot(u, to_end)), 2 * np.pi)
-    sweep = np.where(area > 0, angle, angle - 2 * np.pi)
-    line = straight_pieces(start, end)
-    pick = flat[:, None]
-    return PlaneArcs(
-        np.where(pick, line.c, start + center), np.where(pick, line.u, u), np.where(pick, line.v, v),
-        np.where(flat, line.start, 0.0), np.where(flat, line.sweep, sweep),
-    )  # fmt: skip
-
-
-def in_colors(paths: Paths, color: Ints) -> tuple[Paths, Ints]:
-    """Return shapes of equal rows of ``color`` (k, c) as one shape each, and the distinct rows, ascending."""
-    distinct, number = np.unique(color, axis=0, return_inverse=True)
-    taken = _shapes_taken(paths, np.argsort(number.ravel(), kind="stable"))
-    last = np.cumsum(np.bincount(number.ravel(), minlength=len(distinct)))
-    return taken._replace(shape_start=taken.shape_start[np.append(0, last)]), distinct
+def _met_by_others(runs: HorizonRuns, width: Floats, first: Ints, last: Ints) -> Bools:
+    """Under which stretches, samples ``first`` to ``last``, drawn lines end."""
+    under = []
+    for ends, edge in zip(runs.ends, _edges(runs), strict=True):
+        row = runs.vertices.on_other_run(ends[(width[edge] > 0) & ~runs.closed])
+        under.append((runs.start[runs.vertices.run[row]] + runs.vertices.place[row])[row >= 0])
+    at = np.sort(np.concatenate(under))
+    return np.asarray(np.searchsorted(at, last, side="right") > np.searchsorted(at, first))

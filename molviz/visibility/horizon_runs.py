@@ -6,15 +6,34 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import PlaneArcs
+from molviz.geometry.components import component_labels
 from molviz.geometry.rows import expand, offsets
 from molviz.visibility.curves import HORIZON
-from molviz.visibility.eye import occluders_of, projection_of
+from molviz.visibility.eye import occluders_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
-from molviz.visibility.projection import images_of
 from molviz.visibility.view import View
 
 SPACING = 0.2  # ångström between samples
+NODE = 0.2  # ångström between vertices of one node
 MOST = 5000  # samples across a drawing: in those of giants they lie farther apart
+
+
+class Vertices(NamedTuple):
+    """Where on the runs the vertices of the map lie: both where runs end and where other curves end under them."""
+
+    vertex: Ints  # (p,) ascending
+    run: Ints  # (p,)
+    place: Floats  # (p,) samples, a fractional count from the run's start
+    node: Ints  # (p,) the same for all that are closer to each other along runs than NODE
+
+    def on_other_run(self, row: Ints) -> Ints:
+        """Return for each of the given rows (q,) that of the same vertex on another run, −1 where there is none."""
+        begin, end = (np.searchsorted(self.vertex, self.vertex[row], side=side) for side in ("left", "right"))
+        query, entry = expand(begin, end)
+        other = np.flatnonzero(self.run[entry] != self.run[row][query])
+        found = np.full(len(row), -1)
+        found[query[other]] = entry[other]
+        return found
 
 
 class HorizonRuns(NamedTuple):
@@ -23,9 +42,10 @@ class HorizonRuns(NamedTuple):
     sphere: Ints  # (m,) whose horizon it is
     arcs: PlaneArcs  # (m,) the whole runs
     closed: Bools  # (m,) whole turns
-    before: Ints  # (m,) the sphere under whose horizon, or out of whose ball, the run comes at its start; −1 if closed
-    after: Ints  # (m,) that under or into which it goes at its end
-    horizons: PlaneArcs  # (n,) the images of the horizons of all spheres
+    vertices: Vertices
+    ends: Ints  # (2, m) rows of ``vertices``: where they start and end
+    run_of_arc: Ints  # (k,) the run on which each arc of the map lies, −1 for creases
+    place_of_arc: Floats  # (2, k) the places there where it starts and ends
     start: Ints  # (m + 1,) CSR offsets of the samples
     t: Floats  # (s,) parameters of the samples, equally spaced, both ends included
     behind: Ints  # (s,) the sphere seen just outside each sample, or BACKGROUND
@@ -40,6 +60,10 @@ class HorizonRuns(NamedTuple):
         """Return the lengths (m,) in ångström, those of the circles about the images."""
         return self.arcs.sweep * self.arcs.major()
 
+    def last(self) -> Ints:
+        """Return the places (m,) of the last samples."""
+        return np.diff(self.start) - 1
+
 
 def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     """Return the visible horizons of a map, each as long as nothing hides it, and what lies behind them."""
@@ -51,14 +75,16 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     last = np.append(first[1:], len(row))[: len(first)] - 1
     arcs = view_map.arcs.take(row[first])
     arcs = arcs._replace(sweep=np.add.reduceat(view_map.arcs.sweep[row], first) if len(first) else arcs.sweep)
-    sphere = view_map.curves.first[curve]
-    closed = origin[first] == target[last]
-    before = np.where(closed, -1, _met_at(view_map, row, target, origin[first], sphere[first]))
-    after = np.where(closed, -1, _met_at(view_map, row, origin, target[last], sphere[first]))
-    horizons = images_of(view_map.horizons(), projection_of(view))
+    sphere = view_map.curves.first[curve][first]
     spacing = max(SPACING, _width(arcs) / MOST)
     count = np.maximum(np.ceil(arcs.sweep * arcs.major() / spacing).astype(np.int64), 2) + 1
     start = offsets(np.repeat(np.arange(len(first)), count), len(first))
+    run = np.repeat(np.arange(len(first)), last - first + 1)
+    places = _places(view_map.arcs.sweep[row], run, first, (count - 1) / arcs.sweep)
+    length = arcs.major() * arcs.sweep
+    vertices = _vertices(np.append(origin, target), np.tile(run, 2), places.ravel(), length, count - 1)
+    run_of_arc, place_of_arc = np.full(len(curve_arcs.curve), -1), np.zeros((2, len(curve_arcs.curve)))
+    run_of_arc[row], place_of_arc[:, row] = run, places
     owner, place = expand(np.zeros_like(count), count)
     offset = arcs.sweep[owner] * place / (count[owner] - 1)
     # an end stands for the half sample beside it: where balls touch, the very last arc of a horizon is often too short
@@ -66,39 +92,44 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     beside = arcs.sweep[owner] * np.clip(place, 0.5, count[owner] - 1.5) / (count[owner] - 1)
     behind = _behind_at(view_map, row, first, last, owner, beside)
     t = arcs.start[owner] + offset
-    page = arcs.take(owner).at(t)
-    jump = _jumps(view_map, view, sphere[first][owner], behind, page)
-    return HorizonRuns(sphere[first], arcs, closed, before, after, horizons, start, t, behind, spacing, jump)
+    jump = _jumps(view_map, view, sphere[owner], behind, arcs.take(owner).at(t))
+    closed = origin[first] == target[last]
+    return HorizonRuns(
+        sphere, arcs, closed, *vertices, run_of_arc, place_of_arc, start, t, behind, spacing, jump
+    )  # fmt: skip
+
+
+def _places(sweep: Floats, run: Ints, first: Ints, samples: Floats) -> Floats:
+    """The places (2, a) of the starts and ends of arcs that follow each other along their runs."""
+    reached = np.cumsum(sweep)
+    before = (reached - sweep)[first][run]
+    return np.maximum(np.stack([reached - sweep - before, reached - before]), 0.0) * samples[run]
+
+
+def _vertices(vertex: Ints, run: Ints, place: Floats, length: Floats, last: Ints) -> tuple[Vertices, Ints]:
+    """The table of the starts of all arcs, followed by their ends, and the rows of the runs' own starts and ends."""
+    place = np.minimum(place, last[run])
+    along = np.lexsort((place, run))
+    near = np.diff(place[along]) * (length / last)[run[along][1:]] < NODE
+    near &= run[along][1:] == run[along][:-1]
+    same = np.argsort(vertex, kind="stable")
+    again = vertex[same][1:] == vertex[same][:-1]
+    one = np.append(along[1:][near], same[1:][again])
+    other = np.append(along[:-1][near], same[:-1][again])
+    node = component_labels(one, other, len(vertex))
+    row_of = np.empty(len(vertex), dtype=np.int64)
+    row_of[same] = np.arange(len(vertex))
+    count = len(vertex) // 2
+    numbers = np.arange(len(last))
+    first, final = np.searchsorted(run[:count], numbers), np.searchsorted(run[:count], numbers, side="right") - 1
+    place[count + final] = last  # exactly
+    return Vertices(vertex[same], run[same], place[same], node[same]), row_of[np.stack([first, count + final])]
 
 
 def _width(arcs: PlaneArcs) -> float:
     """The larger side of the box around whole ellipses."""
     half = arcs.half_extent()
     return float(np.max(np.max(arcs.c + half, axis=0, initial=0.0) - np.min(arcs.c - half, axis=0, initial=0.0)))
-
-
-def _met_at(view_map: VisibilityMap, row: Ints, end: Ints, vertex: Ints, own: Ints) -> Ints:
-    """The sphere at which a run of ``own`` ends at each vertex (m,): that of a horizon that runs on, or of a crease."""
-    curves, curve_arcs = view_map.curves, view_map.curve_arcs
-    above = _other_at(end, curves.first[curve_arcs.curve[row]], vertex, own)
-    crease = np.flatnonzero(view_map.is_crease())
-    ends = np.concatenate([curve_arcs.origin[crease], curve_arcs.target[crease]])
-    pair = [np.tile(column[curve_arcs.curve[crease]], 2) for column in (curves.first, curves.second)]
-    entered = [_other_at(ends, sphere, vertex, own) for sphere in pair]
-    return np.where(above >= 0, above, np.maximum(*entered))
-
-
-def _other_at(end: Ints, sphere: Ints, vertex: Ints, own: Ints) -> Ints:
-    """The sphere other than ``own`` a horizon arc of which has the given vertex at its ``end``, −1 where none has."""
-    order = np.argsort(end, kind="stable")
-    begin = np.searchsorted(end[order], vertex)
-    stop = np.searchsorted(end[order], vertex, side="right")
-    row, entry = expand(begin, stop)
-    there = sphere[order[entry]]
-    other = np.full(len(vertex), -1)
-    rows = np.flatnonzero(there != own[row])
-    other[row[rows]] = there[rows]
-    return other
 
 
 def _behind_at(view_map: VisibilityMap, row: Ints, first: Ints, last: Ints, owner: Ints, offset: Floats) -> Ints:

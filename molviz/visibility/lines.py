@@ -35,8 +35,7 @@ def slivers(view_map: VisibilityMap) -> Bools:
     thinnest = SLIVER * min(1.0, float(view_map.spheres.radius.max(initial=0.0)) / SMALL)
     row = view_map.loops.half_edge >> 1
     arcs = view_map.arcs.take(row)
-    length = np.abs(arcs.sweep) * np.sqrt((arcs.u**2 + arcs.v**2).sum(axis=1) / 2)
-    half = np.add.reduceat(length, view_map.loops.start[:-1]) / 2 if len(row) else np.empty(0)
+    half = np.add.reduceat(arcs.lengths(), view_map.loops.start[:-1]) / 2 if len(row) else np.empty(0)
     return np.asarray(np.abs(loop_areas(view_map.arcs, view_map.loops)) < thinnest * half)
 
 
