@@ -182,7 +182,8 @@ def _entering(width: Floats, runs: HorizonRuns, least: Floats) -> tuple[Floats, 
         ends[end] = np.where(corner, row, ends[end])
         reach = np.where(met, np.minimum(away, FADE), FADE)[owner]
         fades = (enters & ~corner)[owner] & (distance < reach) & (width > least)
-        width = np.where(fades, least + (width - least) * distance / reach, width)
+        share = np.divide(distance, reach, out=np.ones_like(reach), where=reach > 0)
+        width = np.where(fades, least + (width - least) * share, width)
     return width, ends
 
 
@@ -193,7 +194,7 @@ def _last_vertices(width: Floats, runs: HorizonRuns, end: int) -> tuple[Ints, Fl
     none.
     """
     vertices, last = runs.vertices, runs.last()
-    inner = np.flatnonzero((vertices.place > 0) & (vertices.place < last[vertices.run]))
+    inner = np.setdiff1d(np.arange(len(vertices.run)), runs.ends)
     run, place = vertices.run[inner], vertices.place[inner]
     distance = np.abs(end * last[run] - place) * (runs.length() / last)[run]
     partner = vertices.on_other_run(inner)

@@ -17,6 +17,8 @@ from molviz.visibility.view import View
 
 SPACING = 0.2  # ångström between samples
 NODE = 0.2  # ångström between vertices of one node
+ATOM = 1.0  # ångström: the radius below which balls are smaller than atoms, and lines change in less room
+FINEST = 0.25  # of what they need on atoms
 STRAIGHT = 1e4  # ångström: the radius of arcs that stand for straight lines; over 2 Å they bend by 5e-5 Å
 MOST = 5000  # samples across a drawing: in those of giants they lie farther apart
 
@@ -44,6 +46,7 @@ class HorizonRuns(NamedTuple):
 
     sphere: Ints  # (m,) whose horizon it is
     arcs: PlaneArcs  # (m,) the whole runs
+    detail: Floats  # (m,) 1 for atoms, less for small balls and their sticks: of the ångström by which lines change
     closed: Bools  # (m,) whole turns
     vertices: Vertices
     ends: Ints  # (2, m) rows of ``vertices``: where they start and end
@@ -60,8 +63,8 @@ class HorizonRuns(NamedTuple):
         return np.repeat(np.arange(len(self.sphere)), np.diff(self.start))
 
     def length(self) -> Floats:
-        """Return the lengths (m,) in ångström, those of the circles about the images."""
-        return self.arcs.sweep * self.arcs.major()
+        """Return the lengths (m,) of the circles about the images, in ångström divided by the detail."""
+        return np.asarray(self.arcs.sweep * self.arcs.major() / self.detail)
 
     def last(self) -> Ints:
         """Return the places (m,) of the last samples."""
@@ -85,11 +88,12 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     spacing = max(SPACING, _width(arcs) / MOST)
     arcs = _whole_runs(arcs, view_map.arcs.take(row[last]), sweep, first, line[first])
     solid = view_map.curves.first[curve][first]
-    count = np.maximum(np.ceil(arcs.sweep * arcs.major() / spacing).astype(np.int64), 2) + 1
+    detail = np.clip(view_map.spheres.radius / ATOM, FINEST, 1.0)[owner_of[solid]]
+    length = arcs.sweep * arcs.major() / detail
+    count = np.maximum(np.ceil(length / spacing).astype(np.int64), 2) + 1
     start = offsets(np.repeat(np.arange(len(first)), count), len(first))
     run = np.repeat(np.arange(len(first)), last - first + 1)
     places = _places(sweep, run, first, (count - 1) / arcs.sweep)
-    length = arcs.major() * arcs.sweep
     vertices = _vertices(np.append(origin, target), np.tile(run, 2), places.ravel(), length, count - 1)
     run_of_arc, place_of_arc = np.full(len(curve_arcs.curve), -1), np.zeros((2, len(curve_arcs.curve)))
     run_of_arc[row], place_of_arc[:, row] = run, places
@@ -103,8 +107,9 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     near = _nearness(view_map, view, row[first], row[last], line[first], owner, place / (count[owner] - 1))
     jump = _jumps(view_map, view, near, owner_of[solid[owner]], behind, arcs.take(owner).at(t))
     closed = origin[first] == target[last]
+    sphere, behind = owner_of[solid], owner_of[behind]
     return HorizonRuns(
-        owner_of[solid], arcs, closed, *vertices, run_of_arc, place_of_arc, start, t, owner_of[behind], spacing, jump
+        sphere, arcs, detail, closed, *vertices, run_of_arc, place_of_arc, start, t, behind, spacing, jump
     )  # fmt: skip
 
 
