@@ -119,6 +119,11 @@ def _spiral(count: int) -> Floats:
     return np.stack([across * np.cos(turn + 1), across * np.sin(turn + 1), z], axis=1)
 
 
+def sums(owner: Ints, value: Floats, count: int) -> Floats:
+    """Return the sums (count,) of the values (k,) of each owner."""
+    return np.asarray(np.bincount(owner, value, count), dtype=np.float64)  # without rows bincount counts in integers
+
+
 def totals(owner: Ints, vector: Floats, count: int) -> Floats:
     """Return the sums (count, 3) of the vectors (k, 3) of each owner."""
-    return np.stack([np.bincount(owner, vector[:, axis], count) for axis in range(3)], axis=1)
+    return np.stack([sums(owner, vector[:, axis], count) for axis in range(3)], axis=1)

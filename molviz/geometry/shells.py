@@ -20,6 +20,7 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.boundary_graph import BoundaryGraph
 from molviz.geometry.components import component_labels
+from molviz.geometry.rims import sums
 from molviz.geometry.rows import blocks, expand
 from molviz.geometry.spherical_faces import face_at, loop_counts
 from molviz.vectors import dot
@@ -51,8 +52,7 @@ def shells_of(graph: BoundaryGraph) -> Shells:
     faces = graph.faces
     of_face = component_labels(faces.edges.face[::2], faces.edges.face[1::2], len(faces.sphere))
     count = int(of_face.max(initial=-1)) + 1
-    area: Floats = np.bincount(of_face, graph.face_area(), count).astype(np.float64)
-    volume = _volumes(graph, of_face, count)
+    area, volume = sums(of_face, graph.face_area(), count), _volumes(graph, of_face, count)
     of_ball = _components(graph)  # also of balls inside others, which have no shell
     component = np.unique(of_ball[faces.sphere[_first_face(of_face, count)]], return_inverse=True)[1]
     outer = np.zeros(count, dtype=bool)
@@ -87,7 +87,7 @@ def _volumes(graph: BoundaryGraph, shell: Ints, count: int) -> Floats:
     spheres, sphere = graph.boundary.spheres, graph.faces.sphere
     origin = spheres.center[sphere[_first_face(shell, count)]]
     field = dot(spheres.center[sphere] - origin[shell], graph.face_flux())
-    return np.bincount(shell, spheres.radius[sphere] * graph.face_area() + field, count) / 3
+    return sums(shell, spheres.radius[sphere] * graph.face_area() + field, count) / 3
 
 
 def _components(graph: BoundaryGraph) -> Ints:

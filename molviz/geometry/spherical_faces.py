@@ -15,7 +15,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.planar_map import Loops, PlanarMap, loops
-from molviz.geometry.rims import Rims, totals, twice_j1, unit_flux
+from molviz.geometry.rims import Rims, sums, totals, twice_j1, unit_flux
 from molviz.geometry.rows import expand, lists_taken
 from molviz.vectors import dot
 
@@ -42,7 +42,7 @@ def spherical_faces(rims: Rims, by_sphere: PlanarMap, unbounded: Ints) -> Spheri
     face_of_edge = np.full(len(by_sphere.face), -1)
     face_of_edge[bounds.half_edge] = np.repeat(face, np.diff(bounds.start))
     used = np.flatnonzero(face_of_edge >= 0)
-    area = np.bincount(face, left, len(sphere)) - WHOLE * (np.bincount(face, minlength=len(sphere)) - 1)
+    area = sums(face, left, len(sphere)) - WHOLE * (np.bincount(face, minlength=len(sphere)) - 1)
     flux = totals(face_of_edge[used], unit_flux(rims.take(used)), len(sphere))
     order = np.argsort(face, kind="stable")
     row, start = lists_taken(bounds.start, order)
@@ -89,7 +89,7 @@ def _left_areas(rims: Rims, by_sphere: PlanarMap, bounds: Loops) -> Floats:
     turn = np.arctan2(aside, dot(arriving, leaving))
     gain = 2 * rims.cosine[edge] * rims.half[edge] - turn
     owner = np.repeat(np.arange(len(bounds.face)), np.diff(bounds.start))
-    return np.asarray(np.bincount(owner, gain, len(bounds.face)) + WHOLE / 2, dtype=np.float64)
+    return sums(owner, gain, len(bounds.face)) + WHOLE / 2
 
 
 def _parts(rims: Rims, bounds: Loops, left: Floats) -> Ints:
