@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from molviz.model.molecule import Molecule
     from molviz.pipeline.door import draw, measure, surface, visible
     from molviz.pipeline.draw import Drawing
+    from molviz.pipeline.index import Index
     from molviz.pipeline.scene import Scene
     from molviz.pipeline.sets import DrawingSet
     from molviz.pipeline.surface import Surface
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 _HOMES = {  # imported when first used: start-up time counts
     "Drawing": "molviz.pipeline.draw",
     "DrawingSet": "molviz.pipeline.sets",
+    "Index": "molviz.pipeline.index",
     "InputError": "molviz.errors",
     "InternalError": "molviz.errors",
     "Measure": "molviz.geometry.measure",
@@ -46,7 +48,7 @@ _HOMES = {  # imported when first used: start-up time counts
     "visible": "molviz.pipeline.door",
 }
 __all__ = [
-    "Drawing", "DrawingSet", "InputError", "InternalError", "Measure", "Molecule", "Reading", "Scene",
+    "Drawing", "DrawingSet", "Index", "InputError", "InternalError", "Measure", "Molecule", "Reading", "Scene",
     "Surface", "View", "Visible", "draw", "measure", "read", "surface", "visible",
 ]  # fmt: skip
 

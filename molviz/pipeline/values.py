@@ -50,6 +50,11 @@ def parse_not_negative(value: Any) -> float:
     return _number(value, 0.0)
 
 
+def parse_number(value: Any) -> float:
+    """Return a number, of either sign."""
+    return _number(value, -LARGEST)
+
+
 def _number(value: Any, least: float) -> float:
     try:
         number = float(value)
