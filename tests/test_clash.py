@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,7 @@ from molviz.model.spheres import Spheres
 from molviz.pipeline import clash as pipeline
 from tests.oracle import random_spheres
 
-SAMPLES = Path(__file__).parent.parent / "samples"
+SAMPLES, FOUND = Path(__file__).parent.parent / "samples", Path(__file__).parent / "found"
 CAFFEINE, PROTEASE = str(SAMPLES / "caffeine.xyz"), str(SAMPLES / "1hpv.pdb.gz")
 APART = "1 0 0 50  0 1 0 0  0 0 1 0"
 
@@ -293,6 +294,21 @@ def test_names_leave_a_terminal_alone(tmp_path: Path) -> None:
     for words in ([], ["--csv"], ["--json"], ["--model-b", "\x1b"], ["--select-b", "\x1b"], ["--transform", "\x1b"]):
         done = run(str(path), str(path), *words)
         assert not set("\x1b\x9b") & set(done.stdout + done.stderr), words
+
+
+@pytest.mark.parametrize("name", sorted(path.name for path in FOUND.iterdir() if path.suffix != ".md"))
+def test_every_odd_input_overlaps_itself_or_is_explained(name: str) -> None:
+    """Warnings of numpy count as failures: they reach the user's terminal."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        done = run(str(FOUND / name), str(FOUND / name), "--json", "--quiet")
+    assert done.exit_code in (0, 1) and not done.stderr.startswith("Traceback")
+    if done.exit_code == 0:
+        pairs = json.loads(done.stdout, parse_constant=pytest.fail)["pairs"]
+        alone = {pair["a"] for pair in pairs if pair["a"] == pair["b"]}
+        assert alone == set(range(len(alone))) and {(pair["b"], pair["a"]) for pair in pairs} == {
+            (pair["a"], pair["b"]) for pair in pairs
+        }
 
 
 def test_more_pairs_than_a_table_holds_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:

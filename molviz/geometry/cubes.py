@@ -147,14 +147,41 @@ def _slabs(low: Floats, high: Floats) -> Floats:
 
 def cube_at(cubes: Cubes, point: Floats) -> tuple[Ints, Bools]:
     """Return for points (m, 3) the row of their cube and whether balls meet it; else some row that is there."""
-    numbers = []
-    known: Bools = np.ones(len(point), dtype=bool)
+    number, known = _slab_numbers(cubes, point)
+    x, y, z = number
+    key = cube_key(x, y, z, cubes.slab_number)
+    row = np.minimum(np.searchsorted(cubes.key, key), len(cubes.key) - 1)
+    return row, known.all(axis=0) & (cubes.key[row] == key)
+
+
+def cubes_above(cubes: Cubes, point: Floats) -> tuple[Ints, Ints]:
+    """Return for points (m, 3) the rows, from the first up to the second, of their cube and those straight above it.
+
+    Only cubes that balls meet have rows; where there are none, both are the same.
+    """
+    number, known = _slab_numbers(cubes, point)
+    x, y, z = number
+    highest = cubes.slab_number[2][-1]
+    above_all = ~known[2] & (point[:, 2] / cubes.side > cubes.slabs[2][-1])
+    begin, end = (
+        np.searchsorted(cubes.key, cube_key(x, y, level, cubes.slab_number))
+        for level in (z + above_all, np.full_like(z, highest + 1))
+    )
+    return begin, np.where(known[0] & known[1], end, begin)
+
+
+def slab_above(cubes: Cubes, row: Ints) -> Floats:
+    """Return the slab in z (m,) of cubes: their points have that number of sides, or up to one more, as height."""
+    number = cubes.key[row] % (cubes.slab_number[2][-1] + 2)
+    return np.asarray(cubes.slabs[2][np.searchsorted(cubes.slab_number[2], number)])
+
+
+def _slab_numbers(cubes: Cubes, point: Floats) -> tuple[list[Ints], Bools]:
+    """The number (m,) of each point's slab on each axis, or of the next above it, and whether balls meet it (3, m)."""
+    numbers, known = [], []
     for axis in range(3):
         slab = np.floor(point[:, axis] / cubes.side)
         place = np.minimum(np.searchsorted(cubes.slabs[axis], slab), len(cubes.slabs[axis]) - 1)
-        known &= cubes.slabs[axis][place] == slab
+        known.append(cubes.slabs[axis][place] == slab)
         numbers.append(cubes.slab_number[axis][place])
-    x, y, z = numbers
-    key = cube_key(x, y, z, cubes.slab_number)
-    row = np.minimum(np.searchsorted(cubes.key, key), len(cubes.key) - 1)
-    return row, known & (cubes.key[row] == key)
+    return numbers, np.stack(known)
