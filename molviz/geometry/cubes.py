@@ -102,11 +102,12 @@ class BallIndex:
         for block in blocks(np.maximum(end - begin, 0), BLOCK_ROWS):
             owner, entry = expand(begin[block], end[block])
             row, ball = query[block][owner], cubes.ball[entry]
-            yield Meetings(row, ball, self._gap(center[query[block]], owner, ball))
+            yield Meetings(row, ball, self.gap(center[query[block]], owner, ball))
 
-    def _gap(self, point: Floats, owner: Ints, ball: Ints) -> Floats:
+    def gap(self, point: Floats, owner: Ints, ball: Ints, axes: int = 3) -> Floats:
+        """Return squared distances (k,) of points, rows ``owner``, and centres of balls along the first ``axes``."""
         gap: Floats = np.zeros(len(owner))
-        for axis in range(3):
+        for axis in range(axes):
             along = point[:, axis].take(owner)
             along -= self._column[axis].take(ball)
             along *= along

@@ -19,13 +19,11 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.boundary_graph import BoundaryGraph
+from molviz.geometry.climb import FacesAbove
 from molviz.geometry.components import component_labels
 from molviz.geometry.rims import sums
-from molviz.geometry.rows import blocks, expand
-from molviz.geometry.spherical_faces import face_at, loop_counts
+from molviz.geometry.spherical_faces import loop_counts
 from molviz.vectors import dot
-
-BLOCK_ROWS = 1 << 20  # (component, ball) at a time
 
 
 class Shells(NamedTuple):
@@ -53,7 +51,7 @@ def shells_of(graph: BoundaryGraph) -> Shells:
     of_face = component_labels(faces.edges.face[::2], faces.edges.face[1::2], len(faces.sphere))
     count = int(of_face.max(initial=-1)) + 1
     area, volume = sums(of_face, graph.face_area(), count), _volumes(graph, of_face, count)
-    of_ball = _components(graph)  # also of balls inside others, which have no shell
+    of_ball = ball_components(graph)  # also of balls inside others, which have no shell
     component = np.unique(of_ball[faces.sphere[_first_face(of_face, count)]], return_inverse=True)[1]
     outer = np.zeros(count, dtype=bool)
     by_volume = np.lexsort((-volume, component))
@@ -90,8 +88,8 @@ def _volumes(graph: BoundaryGraph, shell: Ints, count: int) -> Floats:
     return sums(shell, spheres.radius[sphere] * graph.face_area() + field, count) / 3
 
 
-def _components(graph: BoundaryGraph) -> Ints:
-    """The number (n,) of the set of overlapping balls that each ball belongs to."""
+def ball_components(graph: BoundaryGraph) -> Ints:
+    """Return the number (n,) of the set of overlapping balls that each ball belongs to."""
     start, item = graph.boundary.crossing
     owner = np.repeat(np.arange(len(start) - 1), np.diff(start))
     once = owner < item
@@ -119,7 +117,8 @@ def _surroundings(graph: BoundaryGraph, shells: Shells) -> Ints:
     if shells.outer.all():
         return around
     outer = np.flatnonzero(shells.outer)
-    met = _shells_above(graph, shells, _tops(graph, shells)[outer])
+    face = FacesAbove(graph)(_tops(graph, shells)[outer])
+    met = np.where(face >= 0, shells.of_face[face], -1)
     cavity = (met >= 0) & ~shells.outer[met]
     around[outer[cavity]] = met[cavity]
     beside = np.where((met >= 0) & shells.outer[met], met, outer)  # the component to ask instead, or none
@@ -137,29 +136,3 @@ def _tops(graph: BoundaryGraph, shells: Shells) -> Floats:
     last = np.append(np.diff(shells.of_face[order]) > 0, True)[: len(order)]
     ball = sphere[order[last]]
     return np.column_stack([spheres.center[ball, :2], height[ball]])
-
-
-def _shells_above(graph: BoundaryGraph, shells: Shells, point: Floats) -> Ints:
-    """The shell (q,) that is met first on the way up from points outside of all balls, −1 for none."""
-    spheres = graph.boundary.spheres
-    order = np.argsort(spheres.center[:, 0])
-    order = order[~graph.boundary.inside[order]]
-    x, reach = spheres.center[order, 0], spheres.radius.max()
-    begin, end = np.searchsorted(x, point[:, 0] - reach), np.searchsorted(x, point[:, 0] + reach)
-    met = np.full(len(point), -1)
-    for block in blocks(end - begin, BLOCK_ROWS):
-        query, place = expand(begin[block], end[block])
-        query, ball = query + block.start, order[place]
-        aside = np.sum((point[query, :2] - spheres.center[ball, :2]) ** 2, axis=1)
-        deep = spheres.radius[ball] ** 2 - aside
-        entry = spheres.center[ball, 2] - np.sqrt(np.maximum(deep, 0.0))
-        ahead = (deep > 0) & (entry > point[query, 2])
-        query, ball, entry = query[ahead], ball[ahead], entry[ahead]
-        nearest = np.lexsort((entry, query))
-        nearest = nearest[np.append(True, np.diff(query[nearest]) > 0)[: len(nearest)]]
-        query, ball, entry = query[nearest], ball[nearest], entry[nearest]
-        place_there = np.column_stack([point[query, :2], entry])
-        direction = (place_there - spheres.center[ball]) / spheres.radius[ball, None]
-        face = face_at(graph.faces, ball, direction)
-        met[query] = np.where(face >= 0, shells.of_face[face], -1)
-    return met

@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Sequence
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,9 +12,11 @@ from molviz.errors import InputError
 from molviz.geometry.clashes import Clashes, clashes
 from molviz.geometry.cubes import BallIndex
 from molviz.geometry.grid import Neighbours
+from molviz.geometry.shells import Shells
+from molviz.geometry.whereabouts import Surroundings, Whereabouts
 from molviz.model.molecule import doubles
 from molviz.pipeline.door import load_one, tell
-from molviz.pipeline.inputs import LONGEST
+from molviz.pipeline.inputs import LONGEST, refuse_unresolved
 from molviz.pipeline.placements import placements_from
 
 
@@ -47,7 +50,7 @@ class Index:
         loaded = load_one(x, locals())
         tell(loaded.warnings, stacklevel=3)
         self.molecule, self.spheres = loaded.molecule, loaded.spheres
-        self._index = BallIndex(loaded.spheres)
+        self._loaded, self._index = loaded, BallIndex(loaded.spheres)
 
     def __repr__(self) -> str:
         return f"<Index of {self.molecule.name!r}: {len(self.molecule)} balls>"
@@ -78,6 +81,32 @@ class Index:
     def inside(self, points: Any) -> Bools:
         """Return whether each point (m, 3) lies in any ball; those on the boundary do not."""
         return np.asarray(np.diff(self.containing(points).start) > 0)
+
+    @property
+    def shells(self) -> Shells:
+        """The boundary of the union in its connected parts: first those around components, then the walls of cavities.
+
+        ``outer`` (s,) tells which are which; ``area``, ``volume`` (negative for cavities), ``genus`` and
+        ``parent``, the row of the shell around it or −1, are those of each.
+        """
+        return self._surroundings.shells
+
+    def where(self, points: Any) -> Whereabouts:
+        """Return in which component or cavity each point (m, 3) lies: rows of ``shells``, both −1 outside of all.
+
+        They are the rows of ``molviz.surface(x, probe).components``, too, where its probe is that of this index.
+        ``component`` is that of a ball which contains the point. From other points the way leads straight up, cube by
+        cube, to the first face of the boundary, whose shell tells the ``cavity``. The boundary is made at the first
+        call. Where balls are in special position (four spheres through a point, say) it is that of a few balls
+        displaced by 2e-8 of their radius, and so are these answers. Raises InputError where the smallest ball is lost
+        in the rounding of the scene.
+        """
+        return self._surroundings.at(_places("points", points))
+
+    @cached_property
+    def _surroundings(self) -> Surroundings:
+        refuse_unresolved(self._loaded)
+        return Surroundings(self.spheres)
 
     def clashes(self, other: Any, placements: Any = None, tolerance: float = 0.0) -> Clashes:
         """Return which balls of ``other`` overlap which of these, for each of m placements of ``other``.
