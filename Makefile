@@ -68,6 +68,8 @@ bench: $(VENV)/benched ## measure run times, sizes and peers (nothing is asserte
 	$(BIN)/python benchmarks/draw_bench.py
 	$(BIN)/python benchmarks/franklin_bench.py
 	$(BIN)/python benchmarks/measure_bench.py
+	$(BIN)/python benchmarks/surface_bench.py
+	$(BIN)/python benchmarks/query_bench.py
 
 tables: $(VENV)/installed ## Franklin's Tables 1 to 3 beside ours
 	$(BIN)/python benchmarks/franklin_tables.py

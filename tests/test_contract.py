@@ -42,7 +42,7 @@ def test_an_option_that_cannot_be_used_exits_2_in_one_line(words: list[str], tol
 
 @pytest.mark.parametrize("words", [["--select", "watr"], ["--radii", "bondy"], ["--model", "x"]])
 def test_a_wrong_option_is_told_once_however_many_inputs_there_are(words: list[str]) -> None:
-    for command in ("measure", "info"):
+    for command in ("measure", "surface", "info"):
         result = run(command, CAFFEINE, CAFFEINE, *words)
         assert result.exit_code == 2 and len(result.stderr.splitlines()) == 1 and not result.stdout
 
@@ -57,7 +57,7 @@ def test_two_inputs_with_one_stem_are_named(tmp_path: Path) -> None:
     assert result.exit_code == 2 and f"{CAFFEINE} and {tmp_path / 'caffeine.extxyz'}" in result.stderr
 
 
-@pytest.mark.parametrize("command", ["info", "measure", "draw"])
+@pytest.mark.parametrize("command", ["info", "measure", "surface", "draw"])
 def test_json_is_json_for_any_file_name(command: str, tmp_path: Path) -> None:
     name = os.fsencode(tmp_path) + b"/\xff\xe9\x1b\x7f\n\xc3\xa9.xyz"
     Path(os.fsdecode(name)).write_bytes(Path(CAFFEINE).read_bytes())

@@ -21,6 +21,7 @@ import molviz
 from molviz.cli import main
 from molviz.cli.draw import draw_command
 from molviz.cli.measure import measure_command
+from molviz.cli.surface import surface_command
 from molviz.errors import InputError, InternalError
 from molviz.geometry.general_position import Degenerate, first_general
 from molviz.geometry.measure import measure_spheres
@@ -81,7 +82,10 @@ def keywords_of(function: Callable[..., Any]) -> dict[str, Any]:
     return {name: one.default for name, one in inspect.signature(function).parameters.items() if name != "x"}
 
 
-@pytest.mark.parametrize(("function", "command"), [(molviz.draw, draw_command), (molviz.measure, measure_command)])
+COMMANDS = [(molviz.draw, draw_command), (molviz.measure, measure_command), (molviz.surface, surface_command)]
+
+
+@pytest.mark.parametrize(("function", "command"), COMMANDS)
 def test_keywords_are_the_long_options_with_their_defaults(
     function: Callable[..., Any], command: click.Command
 ) -> None:
@@ -297,7 +301,7 @@ def test_every_public_object_is_shown_in_one_line() -> None:
     scene = molviz.Scene(reading.models[0])
     shown = [
         reading, reading.models[0], molviz.draw(PROTEIN), molviz.visible(PROTEIN), scene, scene.spheres, scene.view,
-        scene.map()[0], molviz.measure(PROTEIN),
+        scene.map()[0], molviz.measure(PROTEIN), molviz.surface(CAFFEINE),
     ]  # fmt: skip
     for one in shown:
         assert "\n" not in repr(one) and len(repr(one)) < 120, repr(one)
@@ -307,8 +311,8 @@ def test_every_public_object_is_shown_in_one_line() -> None:
 
 
 def test_the_names_of_the_package_are_listed_and_explained() -> None:
-    names = ["Drawing", "DrawingSet", "InputError", "InternalError", "Measure", "Molecule", "Reading", "Scene", "View",
-             "Visible", "draw", "measure", "read", "visible"]  # fmt: skip
+    names = ["Drawing", "DrawingSet", "Index", "InputError", "InternalError", "Measure", "Molecule", "Reading",
+             "Scene", "Surface", "View", "Visible", "draw", "measure", "read", "surface", "visible"]  # fmt: skip
     assert dir(molviz) == names
     text = pydoc.plain(pydoc.render_doc(molviz))
     for name in names:

@@ -64,6 +64,8 @@ drawing_options = applied(
     shared("scale_bar", type=SCALE_BAR, is_flag=False, flag_value="auto", metavar="[ÅNGSTRÖM]", help="A scale bar."),
     shared("title", metavar="TEXT", help="Written above the drawing."),
     shared("legend", help="What the colours mean."),
+    shared("surface", help="Balls as they are, or enlarged by --probe (1.4 Å unless given)."),
+    shared("cavities", help="Only the balls that line a cavity (of --probe, 1.4 Å unless given; of vdw, 0)."),
     shared("water", help="Draw water, which is left out otherwise if there is anything else."),
     eye_options,
     shared("turntable", type=COUNT, metavar="N", help="N views about the y axis: {n} in FILE, pages, animation."),

@@ -20,6 +20,8 @@ COMMANDS = {  # name → module:object, imported when first used
     "draw": "molviz.cli.draw:draw_command",
     "hidden-lines": "molviz.cli.hidden_lines:hidden_lines_command",
     "measure": "molviz.cli.measure:measure_command",
+    "surface": "molviz.cli.surface:surface_command",
+    "clash": "molviz.cli.clash:clash_command",
     "info": "molviz.cli.info:info_command",
     "styles": "molviz.cli.styles:styles_command",
     "radii": "molviz.cli.radii:radii_command",

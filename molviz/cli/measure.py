@@ -1,7 +1,5 @@
 """``molviz measure``: options become values, measurements become a table, CSV or JSON."""
 
-import csv
-import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any
@@ -11,7 +9,7 @@ import click
 from molviz.cli.batch import for_each
 from molviz.cli.options import input_options, load_and_warn
 from molviz.cli.progress import Progress
-from molviz.cli.telling import tell_json, visible
+from molviz.cli.telling import tell_csv, tell_json, visible
 from molviz.model.radii import TABLES
 from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.measure import PER, Measurement, Part, measurement
@@ -65,7 +63,7 @@ def _tell(measured: list[Measurement], wanted: InputOptions, per: str | None, as
         results = [_totals(one, wanted) | {"per": [_part(part) for part in one.parts]} for one in measured]
         tell_json({"results": results})
     elif as_csv:
-        _write_csv(_rows(measured, wanted, per))
+        tell_csv(_rows(measured, wanted, per))
     elif measured:
         click.echo("\n".join(_table(measured, wanted)))
 
@@ -90,15 +88,6 @@ def _rows(measured: Iterable[Measurement], wanted: InputOptions, per: str | None
             yield _totals(one, wanted)
         for part in one.parts:
             yield {"file": one.file, "model": one.model, "probe": wanted.probe} | _part(part)
-
-
-def _write_csv(rows: Iterable[Row]) -> None:
-    writer = None
-    for row in rows:
-        if writer is None:
-            writer = csv.DictWriter(sys.stdout, row, lineterminator="\n")
-            writer.writeheader()
-        writer.writerow({name: visible(value) if isinstance(value, str) else value for name, value in row.items()})
 
 
 def _table(measured: list[Measurement], wanted: InputOptions) -> Iterator[str]:

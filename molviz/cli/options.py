@@ -73,23 +73,34 @@ def applied(*options: Decorator) -> Decorator:
     return decorate
 
 
-input_options = applied(
-    click.option(
-        "--model", "--frame", "model", type=str, default=USUAL["model"], show_default=True, help="Number; A-B or all."
-    ),
-    shared("assembly", metavar="ID", help="Biological assembly, from the file's own operators."),
-    shared("select", metavar="EXPR", help="Keep part of it, e.g. 'chain A and not water'."),
-    shared("no_water", help="Leave out water."),
-    shared("no_hydrogens", help="Leave out hydrogen and deuterium."),
-    shared("chain", metavar="A,B", help="Keep these chains."),
-    shared("radii", show_default=True, metavar="NAME|FILE", help="Table of radii."),
-    shared("scale_radii", type=POSITIVE, metavar="X", help="Multiply all radii."),
-    shared("probe", type=NOT_NEGATIVE, metavar="R", help="Add to all radii, in Å."),
-    click.option("--format", "format_", type=click.Choice(FORMATS), help="Input format, where - is read."),
-    click.option("--unpack-all", is_flag=True, help="Archives too that hold far more than molecules do."),
-    click.option("--quiet", is_flag=True, help="No summary line and no warnings."),
-    click.option("--strict", is_flag=True, help="Warnings become errors."),
-)
+def input_options_with(probe: Decorator) -> Decorator:
+    """Return the options that say which part of an input is wanted; what a probe means is the command's."""
+    return applied(
+        click.option(
+            "--model",
+            "--frame",
+            "model",
+            type=str,
+            default=USUAL["model"],
+            show_default=True,
+            help="Number; A-B or all.",
+        ),
+        shared("assembly", metavar="ID", help="Biological assembly, from the file's own operators."),
+        shared("select", metavar="EXPR", help="Keep part of it, e.g. 'chain A and not water'."),
+        shared("no_water", help="Leave out water."),
+        shared("no_hydrogens", help="Leave out hydrogen and deuterium."),
+        shared("chain", metavar="A,B", help="Keep these chains."),
+        shared("radii", show_default=True, metavar="NAME|FILE", help="Table of radii."),
+        shared("scale_radii", type=POSITIVE, metavar="X", help="Multiply all radii."),
+        probe,
+        click.option("--format", "format_", type=click.Choice(FORMATS), help="Input format, where - is read."),
+        click.option("--unpack-all", is_flag=True, help="Archives too that hold far more than molecules do."),
+        click.option("--quiet", is_flag=True, help="No summary line and no warnings."),
+        click.option("--strict", is_flag=True, help="Warnings become errors."),
+    )
+
+
+input_options = input_options_with(shared("probe", type=NOT_NEGATIVE, metavar="R", help="Add to all radii, in Å."))
 eye_options = applied(
     shared(
         "orient",

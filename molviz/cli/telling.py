@@ -1,6 +1,9 @@
 """What reaches the terminal: messages and results, and no character that it obeys."""
 
+import csv
 import json
+import sys
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import click
@@ -27,3 +30,17 @@ def say(*lines: str) -> None:
 def tell_json(result: dict[str, Any]) -> None:
     """Write one JSON object, in ASCII, whatever the names in it: file names need not be text of any encoding."""
     click.echo(json.dumps(result))
+
+
+def tell_csv(rows: Iterable[dict[str, Any]], header: Sequence[str] = ()) -> None:
+    """Write comma-separated values; where no header is given, the first row's names are it."""
+    writer = _csv_writer(header) if header else None
+    for row in rows:
+        writer = writer or _csv_writer(list(row))
+        writer.writerow({name: visible(value) if isinstance(value, str) else value for name, value in row.items()})
+
+
+def _csv_writer(header: Sequence[str]) -> "csv.DictWriter[str]":
+    writer = csv.DictWriter(sys.stdout, header, lineterminator="\n")
+    writer.writeheader()
+    return writer

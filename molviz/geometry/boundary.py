@@ -50,6 +50,11 @@ def union_boundary(spheres: Spheres, near: Neighbours | None = None) -> Boundary
     return Boundary(spheres, near, crossing, inside, circles, arcs)
 
 
+def free_spheres(boundary: Boundary) -> Bools:
+    """Return (n,) whether a sphere is free all over: no sphere meets it, and it lies in no other ball."""
+    return np.asarray((np.diff(boundary.crossing.start) == 0) & ~boundary.inside)
+
+
 def _crossing(spheres: Spheres, near: Neighbours) -> tuple[Neighbours, Bools]:
     """The neighbours whose spheres meet in a circle, among balls that lie in no other; and which balls do."""
     count = len(spheres.radius)

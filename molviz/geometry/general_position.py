@@ -16,6 +16,7 @@ from molviz.errors import InternalError
 from molviz.model.spheres import Spheres
 
 DISPLACEMENT = 5e-5  # of a sphere's radius: 1e-4 Å for an atom, below a file's precision and far above rounding
+NUDGE = 2e-8  # of a radius, for numbers: below 1e-7 Å for balls up to 5 Å, and above COINCIDE, where ties have rules
 ATTEMPTS = 8  # copies tried; of a molecule the second is needed about once in ten thousand pictures
 
 T = TypeVar("T")
@@ -49,6 +50,15 @@ def general_position(spheres: Spheres, attempt: int = 0) -> tuple[Spheres, Ints]
     direction = _unit_vectors(rows, attempt)
     center = spheres.center[rows] + direction * (DISPLACEMENT * radius)[:, None]
     return Spheres(center, radius * (1.0 - 1.01 * DISPLACEMENT)), rows
+
+
+def nudged(spheres: Spheres, times: Ints) -> Spheres:
+    """Return the n balls, those with ``times`` (n,) above 0 displaced in a direction that depends on that number."""
+    center = spheres.center.copy()
+    for number in np.unique(times[times > 0]).tolist():
+        rows = np.flatnonzero(times == number)
+        center[rows] += _unit_vectors(rows, number) * (NUDGE * spheres.radius[rows])[:, None]
+    return Spheres(center, spheres.radius)
 
 
 def _first_of_each(spheres: Spheres) -> Ints:

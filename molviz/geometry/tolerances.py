@@ -13,3 +13,11 @@ near coincidence equals that of ignoring it."""
 SINGLE = 4e-6
 """Rounding in single precision of sums of five products of cosines is below 1e-6; what the pre-tests of ``caps``
 decide, they decide by a wider margin than that."""
+
+SHORT = 1e-10
+"""Arcs shorter than this share of a radius are in doubt: their ends, good to 1e-15, would give directions between them
+to five digits only, and a face as small as that has no area (1e-20)."""
+
+CLUSTER = 1e-6
+"""Probes that arcs shorter than this share of their radius connect do not cut each other (their circle is wider than
+the probe): the direction from one to the other is known to 1e-15 / 1e-6, and what decides is of the order of 1e-6."""

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from molviz.pipeline.draw import Drawing
     from molviz.pipeline.inputs import Loaded
     from molviz.pipeline.sets import DrawingSet
+    from molviz.pipeline.surface import Surface
     from molviz.pipeline.visible import Visible
     from molviz.visibility.view import View
 
@@ -36,6 +37,8 @@ def draw(
     color: str | Sequence[str | tuple[str, Any]] = (),
     palette: str | os.PathLike[str] = "tide",
     parts: str | None = None,
+    surface: str | None = None,
+    cavities: bool = False,
     label: str | Sequence[str] = (),
     scale_bar: float | str | bool | None = None,
     title: str | None = None,
@@ -82,6 +85,8 @@ def draw(
       none), ``background`` ("white", "#ffe", (255, 255, 238) or "none");
     * beside it: ``label`` ("resn HEM", "chain A and name CA={resn} {resi}", several), ``scale_bar`` (ångström, or
       True), ``title``, ``legend``;
+    * which balls: ``surface`` "vdw" or "accessible" (enlarged by ``probe``, 1.4 Å if none is given), ``cavities`` (only
+      those that line a cavity, found with the same probe; with none for "vdw");
     * the view: ``orient`` "principal" or "file", ``rotate`` ("x,30", or [("x", 30), ("y", 10)] in degrees),
       ``perspective`` (the eye's distance in ångström), ``stereo`` "wall" or "cross" (two beside each other);
     * a set of pictures, a ``DrawingSet``: ``turntable`` (so many views around the page's y axis), or ``model`` "2-4"
@@ -131,6 +136,38 @@ def measure(
     loaded = load_one(x, options)
     tell(loaded.warnings, stacklevel=3)
     return measure_spheres(loaded.spheres)
+
+
+def surface(
+    x: Any,
+    probe: float = 1.4,
+    radii: str | os.PathLike[str] = "bondi",
+    *,
+    outer_only: bool = False,
+    check: bool = False,
+    model: int | str = 1,
+    assembly: str | None = None,
+    select: str | None = None,
+    no_water: bool = False,
+    no_hydrogens: bool = False,
+    chain: str | Sequence[str] | None = None,
+    scale_radii: float = 1.0,
+) -> Surface:
+    """Return the boundary of the balls of ``x``, ``probe`` Å larger, as a graph, and the smooth surface of the probe.
+
+    Components, cavities and their lining, and exact areas and volumes by kind and atom come with it. ``outer_only``
+    leaves out voids; ``check`` verifies both identities of the surface and raises InternalError where one does not
+    hold. ``x`` and the options are as for ``molviz.draw``; rows are the atoms that they leave. Raises InputError naming
+    what is wrong, and warns of what is odd.
+    """
+    options = dict(locals())
+    from molviz.pipeline.surface import surface_of
+    from molviz.pipeline.values import given, parse_not_negative
+
+    radius = given(options, "probe", parse_not_negative)
+    loaded = load_one(x, options | {"probe": 0.0})
+    tell(loaded.warnings, stacklevel=3)
+    return surface_of(loaded, radius, outer_only, check)
 
 
 def visible(

@@ -21,7 +21,7 @@ from molviz.picture.options import Alike, DrawOptions, Labelled, Painted, Subjec
 from molviz.picture.palette import load_palette
 from molviz.picture.picture import Color, Picture
 from molviz.picture.style import load_style
-from molviz.pipeline.inputs import Loaded, refuse_unresolved
+from molviz.pipeline.inputs import WATER_RADIUS, Loaded, refuse_unresolved
 from molviz.pipeline.outputs import encoded, refuse_inputs, save
 from molviz.pipeline.solids import SolidOptions, shown, solid_options_from, solids_for
 from molviz.pipeline.values import (
@@ -50,7 +50,6 @@ from molviz.write import WRITERS
 AUTO = "auto"
 JSON = ".json"
 NOT_PAINTED = (JSON, ".hpgl")  # the map is another thing, and a pen cannot cover what it drew
-WATER_RADIUS = 1.4  # ångström, Lee & Richards 1971
 
 
 @dataclass(frozen=True)

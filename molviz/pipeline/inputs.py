@@ -6,8 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats
+from molviz.arrays import Bools, Floats, Ints
 from molviz.errors import InputError, OptionError
+from molviz.geometry.boundary_graph import boundary_graph
+from molviz.geometry.shells import lining, shells_of
 from molviz.model.elements import UNKNOWN
 from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT, OWN
@@ -19,6 +21,7 @@ from molviz.readers import Reading, read
 FAR_APART = 4000.0  # radii: wider pictures have more pixels than a screen, if each atom is to have two
 SHORTEST, LONGEST = 1e-60, 1e60  # ångström: fourth powers, and quotients of them, are numbers
 RESOLVED = 64  # steps of the rounding in a radius, at least, for a ball to be told from its neighbours
+WATER_RADIUS = 1.4  # ångström, of a probe: Lee & Richards 1971
 FORMATS = tuple(READERS)
 WITH_CHARGES = ("pqr",)  # whose radii are a force field's, for electrostatics: used where they are asked for
 
@@ -36,6 +39,7 @@ class InputOptions:
     radii: str = DEFAULT
     scale_radii: float = 1.0
     probe: float = 0.0
+    cavities: float | None = None  # only atoms that line a cavity of the balls, this much larger in ångström
     format: str | None = None
     unpack_all: bool = False  # archives however much they hold
 
@@ -101,6 +105,9 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
         molecule = replace(molecule, radius=np.where(molecule.element == UNKNOWN, molecule.radius, np.nan))
     bare, warnings = spheres_of(molecule, wanted.radii)
     _refuse_unheld("a radius", bare.radius, SHORTEST, reading.source)
+    if wanted.cavities is not None:
+        rows = _lining(bare.enlarged(wanted.scale_radii, wanted.cavities), wanted.cavities, reading.source)
+        molecule, bare = molecule.take(rows), bare.take(rows)
     spheres = bare.enlarged(wanted.scale_radii, wanted.probe)
     warnings += _far_apart(spheres) + _without_water(whole, molecule, wanted) + _without_radius(whole, wanted)
     told = tuple(f"{reading.source}: {warning}" for warning in warnings)
@@ -144,6 +151,17 @@ def _kept(molecule: Molecule, wanted: InputOptions, source: str) -> Molecule:
         chains = ", ".join(dict.fromkeys(molecule.chain.tolist()))
         raise InputError(f"no atoms are left by the selection; the chains are {chains or 'not named'}", source)
     return molecule if keep.all() else molecule.take(np.flatnonzero(keep))
+
+
+def _lining(spheres: Spheres, probe: float, source: str) -> Ints:
+    """The rows of balls that line a cavity; raises InputError where there is none."""
+    graph = boundary_graph(spheres)
+    shells = shells_of(graph)
+    shell, ball = lining(graph, shells)
+    rows = np.unique(ball[~shells.outer[shell]])
+    if len(rows) == 0:
+        raise InputError(f"has no cavity with a probe of {probe:g} Å; molviz surface tells of other probes", source)
+    return rows
 
 
 def _without_water(whole: Molecule, molecule: Molecule, wanted: InputOptions) -> tuple[str, ...]:

@@ -70,18 +70,21 @@ def _chosen(loaded: Loaded, selection: str | None) -> Ints:
 
 def _parts(molecule: Molecule, per: str, area: Floats, exposed: Floats | None) -> tuple[Part, ...]:
     """One row per atom, residue or chain, in the order of the file."""
-    ids = _ids(molecule, per)
-    names, first, group = np.unique(ids, return_index=True, return_inverse=True)
+    labels = ids(molecule, per)
+    names, first, group = np.unique(labels, return_index=True, return_inverse=True)
     if per == "atom":
-        names, first, group = ids, np.arange(len(ids)), np.arange(len(ids))
+        names, first, group = labels, np.arange(len(labels)), np.arange(len(labels))
     order = np.argsort(first)
     columns = [None if column is None else np.bincount(group, column)[order].tolist() for column in (area, exposed)]
     alone, free = columns[0] or [], columns[1] or [None] * len(order)
     return tuple(Part(*row) for row in zip(names[order].tolist(), alone, free, strict=True))
 
 
-def _ids(molecule: Molecule, per: str) -> Strings:
-    """``A``, ``A/CYS56A`` or ``A/CYS56A/SG``; ``-`` for a chain without a name, ``C1`` for atoms without residue."""
+def ids(molecule: Molecule, per: str) -> Strings:
+    """Return names (n,) of the atoms, or of the residue or chain of each: ``A/CYS56A/SG``, ``A/CYS56A`` or ``A``.
+
+    A chain without a name is ``-``, an atom without residue ``C1``.
+    """
     chain = np.where(molecule.chain == "", "-", molecule.chain)
     if per == "chain":
         return chain

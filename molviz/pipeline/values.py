@@ -17,7 +17,7 @@ from molviz.picture.colors import parse_color
 from molviz.picture.furniture import ROUND
 from molviz.picture.page import PAPER, Page, parse_length
 from molviz.picture.picture import Color
-from molviz.pipeline.inputs import InputOptions
+from molviz.pipeline.inputs import WATER_RADIUS, InputOptions
 from molviz.pipeline.views import ViewOptions
 
 Options = Mapping[str, Any]
@@ -35,6 +35,7 @@ CHOICES = {
     "parts": ("atoms", "merged"),
     "stereo": ("wall", "cross"),
     "bonds": SOURCES,
+    "surface": ("vdw", "accessible"),
 }
 
 
@@ -49,6 +50,11 @@ def parse_positive(value: Any) -> float:
 def parse_not_negative(value: Any) -> float:
     """Return a number, 0 or more."""
     return _number(value, 0.0)
+
+
+def parse_number(value: Any) -> float:
+    """Return a number, of either sign."""
+    return _number(value, -LARGEST)
 
 
 def _number(value: Any, least: float) -> float:
@@ -186,6 +192,7 @@ def input_options_from(options: Options) -> InputOptions:
     """Return which part of the input is wanted; raises OptionError for what is wrong whatever the input holds."""
     if options["radii"] != OWN:
         load_table(str(options["radii"]))
+    probe, cavities = _probes_from(options)
     return InputOptions(
         model=given(options, "model", parse_model),
         assembly=given(options, "assembly", parse_text),
@@ -195,10 +202,25 @@ def input_options_from(options: Options) -> InputOptions:
         chains=given(options, "chain", parse_chains) or (),
         radii=str(options["radii"]),
         scale_radii=given(options, "scale_radii", parse_positive),
-        probe=given(options, "probe", parse_not_negative),
+        probe=probe,
+        cavities=cavities,
         format=options.get("format_"),
         unpack_all=bool(options.get("unpack_all")),
     )
+
+
+def _probes_from(options: Options) -> tuple[float, float | None]:
+    """The probe of the balls that are drawn or measured, and that of the cavities whose lining is wanted, if it is."""
+    probe: float = given(options, "probe", parse_not_negative)
+    surface = chosen(options, "surface") if options.get("surface") is not None else None
+    if surface == "vdw" and probe > 0:
+        raise OptionError(f"surface: the van der Waals surface has no probe of {probe:g} Å; expected accessible")
+    rolled = probe or WATER_RADIUS
+    if surface == "accessible":
+        probe = rolled
+    if not options.get("cavities"):
+        return probe, None
+    return probe, 0.0 if surface == "vdw" else rolled
 
 
 def _water_from(options: Options) -> bool | None:

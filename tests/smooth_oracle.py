@@ -1,0 +1,111 @@
+"""The distance to the free space of a probe, by trying whatever may be its nearest point; and points of patches."""
+
+from itertools import combinations
+
+import numpy as np
+
+from molviz.geometry.boundary_graph import BoundaryGraph
+from molviz.geometry.smooth import cut_triangles, probes_of, saddles_of
+from molviz.geometry.spherical_faces import face_at
+from molviz.model.spheres import Spheres
+
+FREE = 1e-9  # Å, by which a candidate may be inside a ball
+
+
+def distance_to_free_space(spheres: Spheres, points: np.ndarray) -> np.ndarray:
+    """Of points (q, 3) inside the union of n balls to what is outside of all of them."""
+    best = np.full(len(points), np.inf)
+    for candidate in candidates(spheres, points):
+        depth = spheres.radius - np.linalg.norm(candidate[:, None] - spheres.center, axis=2)
+        gap = np.linalg.norm(candidate - points, axis=1)
+        best = np.where((depth.max(axis=1) < FREE) & (gap < best), gap, best)
+    return best
+
+
+def candidates(spheres: Spheres, points: np.ndarray) -> list[np.ndarray]:
+    """The nearest points of each sphere, of each circle of two spheres, and the common points of three."""
+    center, radius, count = spheres.center, spheres.radius, len(spheres.radius)
+    found = [center[i] + radius[i] * unit(points - center[i]) for i in range(count)]
+    for i, j in combinations(range(count), 2):
+        between = center[j] - center[i]
+        d = np.linalg.norm(between)
+        t = (d**2 + radius[i] ** 2 - radius[j] ** 2) / (2 * d)
+        if abs(radius[i] - radius[j]) < d < radius[i] + radius[j]:
+            middle, axis = center[i] + t / d * between, between / d
+            across = points - middle - np.outer((points - middle) @ axis, axis)
+            found.append(middle + np.sqrt(radius[i] ** 2 - t**2) * unit(across))
+    for triple in combinations(range(count), 3):
+        found += [np.broadcast_to(point, points.shape) for point in common_points(spheres, list(triple))]
+    return found
+
+
+def common_points(spheres: Spheres, triple: list[int]) -> list[np.ndarray]:
+    """At most two points, by linear algebra."""
+    center, radius = spheres.center[triple], spheres.radius[triple]
+    sides = center[1:] - center[0]
+    level = (np.sum(sides**2, axis=1) + radius[0] ** 2 - radius[1:] ** 2) / 2
+    offset = sides.T @ np.linalg.solve(sides @ sides.T, level)
+    normal = np.cross(sides[0], sides[1])
+    rest = radius[0] ** 2 - offset @ offset
+    if rest <= 0:
+        return []
+    step = np.sqrt(rest) * normal / np.linalg.norm(normal)
+    return [center[0] + offset + step, center[0] + offset - step]
+
+
+def unit(vectors: np.ndarray) -> np.ndarray:
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=1)[:, None])
+
+
+def points_of_patches(
+    graph: BoundaryGraph, probe: float, count: int, random: np.random.Generator
+) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """By kind: random points (q, 3) of whole patches, and whether they are said to be left of them."""
+    return {
+        "convex": convex_points(graph, probe, count, random),
+        "saddle": saddle_points(graph, probe, count, random),
+        "concave": concave_points(graph, probe, count, random),
+    }
+
+
+def convex_points(
+    graph: BoundaryGraph, probe: float, count: int, random: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
+    spheres = graph.boundary.spheres
+    ball = random.integers(0, len(spheres.radius), count)
+    direction = unit(random.normal(size=(count, 3)))
+    points = spheres.center[ball] + (spheres.radius[ball] - probe)[:, None] * direction
+    return points, face_at(graph.faces, ball, direction) >= 0
+
+
+def saddle_points(
+    graph: BoundaryGraph, probe: float, count: int, random: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
+    arcs = graph.boundary.arcs
+    if not len(arcs.circle):
+        return np.empty((0, 3)), np.empty(0, dtype=bool)
+    row = random.integers(0, len(arcs.circle), count)
+    saddle = saddles_of(graph, probe, row)
+    angle = arcs.start[row] + random.random(count) * arcs.sweep[row]
+    spoke = graph.boundary.circles.spoke(arcs.circle[row], angle) / saddle.radius[:, None]
+    theta = saddle.low + random.random(count) * (saddle.high - saddle.low)
+    out = (saddle.radius - probe * np.cos(theta))[:, None] * spoke + probe * np.sin(theta)[:, None] * saddle.axis
+    return saddle.middle + out, np.abs(theta) >= saddle.waist
+
+
+def concave_points(
+    graph: BoundaryGraph, probe: float, count: int, random: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
+    probes = probes_of(graph, probe, np.arange(len(graph.vertex)))
+    if not len(probes.vertex):
+        return np.empty((0, 3)), np.empty(0, dtype=bool)
+    row = random.integers(0, len(probes.vertex), count)
+    weight = random.dirichlet(np.ones(3), count)
+    direction = unit(np.einsum("qk,qki->qi", weight, probes.corner[row]))
+    cut = cut_triangles(probes, probe)
+    left = np.ones(count, dtype=bool)
+    for k, vertex in enumerate(cut.probe.tolist()):
+        mine = np.flatnonzero(row == vertex)
+        caps = slice(cut.caps.start[k] + 3, cut.caps.start[k + 1])
+        left[mine] = np.all(direction[mine] @ cut.caps.axis[caps].T <= cut.caps.cosine[caps], axis=1)
+    return probes.center[row] + probe * direction, left
