@@ -58,6 +58,10 @@ gallery: $(VENV)/installed ## redraw the README's pictures into docs/
 	$(MOLVIZ) draw samples/1lcd.cif.gz --palette clay --width 8cm -o docs/clay.svg
 	$(MOLVIZ) draw samples/1hpv.pdb.gz --label 'resn 478=amprenavir' --title 'HIV-1 protease' --scale-bar --legend \
 		--width 10cm $(PAPER) -o docs/labels.svg
+	$(MOLVIZ) draw samples/caffeine.xyz --rep ball-and-stick --width 8cm -o docs/bonds.svg
+	$(MOLVIZ) draw samples/caffeine.xyz --rep sticks --style shaded --width 8cm -o docs/sticks.svg
+	$(MOLVIZ) draw samples/1hpv.pdb.gz --select 'within 4.5 of resn 478' --rep sticks --rep 'resn 478=ball-and-stick' \
+		--color 'resn 478 and element C=orange' --width 10cm $(PAPER) -o docs/pocket.svg
 	$(MOLVIZ) draw samples/1a8o.pdb --style flat --color-by exposure --legend --width 10cm $(PAPER) -o docs/flat.svg
 	$(MOLVIZ) draw samples/1a8o.pdb --style print --width 8cm $(PAPER) -o docs/print.svg
 	$(MOLVIZ) draw samples/c60.xyz --style hatch --perspective 15 --width 8cm $(PAPER) -o docs/hatch.svg

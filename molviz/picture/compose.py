@@ -14,7 +14,7 @@ from molviz.picture.chains import Chains, linked, linked_apart, merged_arcs
 from molviz.picture.coloring import order_of_appearance
 from molviz.picture.furniture import Box, Furnished, Furniture, Label, Ramp, Swatches, furnish
 from molviz.picture.hatching import LEVELS, hatched, level_distance, tone_levels
-from molviz.picture.ink import SPUR, Widths, at_places, line_widths
+from molviz.picture.ink import SPUR, WIDEST_SHARE, Widths, at_places, line_widths
 from molviz.picture.ink_pockets import inked_arcs, pockets
 from molviz.picture.ink_shapes import NECK, OUTSIDE, in_colors, inked
 from molviz.picture.looks import (
@@ -355,7 +355,8 @@ class MapComposer:
         widths = line_widths(self.runs, self.looks.group, self.looks.far, style, self.scale, crease)
         if self.style.colors.scheme not in BY_PALETTE:  # things are not told apart by their inks
             widths = widths._replace(dark=np.ones_like(widths.dark))
-        return self.runs, widths, NECK * style.silhouette.at(self.scale)
+        widest = min(style.silhouette.at(self.scale), WIDEST_SHARE * float(np.mean(self.runs.detail)))
+        return self.runs, widths, NECK * widest
 
     def ink(self) -> list[Layer]:
         """Return lines of varying width: dark ones around things, the things' own within them; far ones first."""

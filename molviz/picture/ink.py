@@ -29,6 +29,7 @@ SPUR = 1.1  # ångström: shorter lines are dropped if they are thin or meet no 
 THINNER = 0.4  # of a line's width: it is not made so thin where another one ends with it
 STUB = 0.5  # ångström: shorter lines are dropped unless they meet two others
 SPUR_SHARE = 0.4  # of the widest inner line: such lines are thin
+WIDEST_SHARE = 0.5  # ångström times the detail: no line is wider, lest it hide sticks and small balls
 FARTHER_THINNER = 0.3  # by which lines of the farthest spheres are thinner
 
 
@@ -99,6 +100,7 @@ def line_widths(
     silhouette, between, inside = (pen.at(scale) for pen in (style.silhouette, style.between, style.inside))
     ramp = smooth_step((runs.jump - style.faint) / (style.full - style.faint))
     width = np.where(background, silhouette, np.where(foreign, between * (0.5 + 0.5 * ramp), inside * ramp))
+    width = np.minimum(width, WIDEST_SHARE * runs.detail[runs.owner()])
     width = _smoothed(_fading(width * (1.0 - FARTHER_THINNER * far[own]), runs), runs, SIGMA)
     thinnest = max(THINNEST, THINNEST_SHARE * inside)
     width[width < thinnest] = 0.0
