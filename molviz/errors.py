@@ -1,6 +1,8 @@
 """What can go wrong: with a user's data, with what they ask for, and with molviz itself."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+
+MOST_LISTED = 12  # names in a message: who needs the others asks the file
 
 
 class InputError(ValueError):
@@ -23,6 +25,12 @@ class InternalError(Exception):
 
     def __init__(self, message: str) -> None:
         super().__init__(f"{message}; this is a failure of molviz: please report it together with the input")
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names for a message, a long list cut."""
+    more = len(names) - MOST_LISTED
+    return ", ".join(names) if more <= 0 else f"{', '.join(names[:MOST_LISTED])} … and {more} more"
 
 
 def expected_instead(wrong: str, known: Iterable[str], otherwise: str) -> str:

@@ -78,7 +78,7 @@ input_options = applied(
         "--model", "--frame", "model", type=str, default=USUAL["model"], show_default=True, help="Number; A-B or all."
     ),
     shared("assembly", metavar="ID", help="Biological assembly, from the file's own operators."),
-    shared("select", metavar="EXPR", help="Keep part of it, e.g. 'chain A and not water'."),
+    shared("select", metavar="EXPR", help="Keep part of it: 'chain A and resi 10-20' (molviz help selections)."),
     shared("no_water", help="Leave out water."),
     shared("no_hydrogens", help="Leave out hydrogen and deuterium."),
     shared("chain", metavar="A,B", help="Keep these chains."),

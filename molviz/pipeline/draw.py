@@ -201,11 +201,11 @@ def draw_request_from(options: Options) -> DrawRequest:
     return DrawRequest(look, colors, labels)
 
 
-def labelled_of(molecule: Molecule, text: str) -> Labelled:
+def labelled_of(molecule: Molecule, text: str, model: int = 1) -> Labelled:
     """Return the atoms that ``SELECTION[=TEXT]`` means, split at the first = that leaves a valid selection."""
     for place in [*(k for k, letter in enumerate(text) if letter == "="), len(text)]:
         try:
-            return Labelled(select(molecule, text[:place]), text[place + 1 :], text[:place])
+            return Labelled(select(molecule, text[:place], model), text[place + 1 :], text[:place])
         except InputError:
             if place == len(text):
                 raise
@@ -239,8 +239,10 @@ def subject_of(loaded: Loaded, request: DrawRequest, options: DrawOptions) -> Su
     """Return what there is to tell of a model, before anything is known of views; ``options`` are settled."""
     molecule, nowhere = loaded.molecule, np.zeros(2)
     values = color_values(loaded, str(options.color_by))
-    painted = tuple(Painted(select(molecule, selection), color, selection) for selection, color in request.colors)
-    labelled = tuple(labelled_of(molecule, label) for label in request.labels)
+    painted = tuple(
+        Painted(select(molecule, selection, loaded.model), color, selection) for selection, color in request.colors
+    )
+    labelled = tuple(labelled_of(molecule, label, loaded.model) for label in request.labels)
     none = np.empty(0, dtype=np.int64)
     return Subject(molecule, none, nowhere, nowhere, values, painted, labelled, request.description)
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats
-from molviz.errors import InputError, OptionError
+from molviz.errors import InputError, OptionError, listed
 from molviz.model.elements import UNKNOWN
 from molviz.model.molecule import Molecule
 from molviz.model.radii import DEFAULT, OWN
@@ -96,7 +96,7 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
     if wanted.assembly is not None:
         whole = reading.assembly(wanted.assembly, number - 1)
     _refuse_unheld("a coordinate", np.abs(whole.position).max(axis=1), 0.0, reading.source)
-    molecule = _named(_kept(whole, wanted, reading.source), reading.source)
+    molecule = _named(_kept(whole, wanted, reading.source, number), reading.source)
     if reading.format in WITH_CHARGES and wanted.radii != OWN:
         molecule = replace(molecule, radius=np.where(molecule.element == UNKNOWN, molecule.radius, np.nan))
     bare, warnings = spheres_of(molecule, wanted.radii)
@@ -127,10 +127,10 @@ def refuse_unresolved(loaded: Loaded) -> None:
         raise InputError(f"{message}; expected nearer ones", loaded.source)
 
 
-def _kept(molecule: Molecule, wanted: InputOptions, source: str) -> Molecule:
+def _kept(molecule: Molecule, wanted: InputOptions, source: str, model: int) -> Molecule:
     keep: Bools = np.ones(len(molecule), dtype=bool)
     if wanted.select is not None:
-        keep &= select(molecule, wanted.select)
+        keep &= select(molecule, wanted.select, model)
     water = is_water(molecule)
     if wanted.water is False or (wanted.water is None and np.any(keep & ~water)):
         keep &= ~water
@@ -141,7 +141,7 @@ def _kept(molecule: Molecule, wanted: InputOptions, source: str) -> Molecule:
     if wanted.radii == OWN and not np.isnan(molecule.radius).all():
         keep &= ~np.isnan(molecule.radius)
     if not keep.any():
-        chains = ", ".join(dict.fromkeys(molecule.chain.tolist()))
+        chains = listed([name for name in dict.fromkeys(molecule.chain.tolist()) if name])
         raise InputError(f"no atoms are left by the selection; the chains are {chains or 'not named'}", source)
     return molecule if keep.all() else molecule.take(np.flatnonzero(keep))
 

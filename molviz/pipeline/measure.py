@@ -62,7 +62,7 @@ def measurement(loaded: Loaded, selection: str | None = None, per: str | None = 
 def _chosen(loaded: Loaded, selection: str | None) -> Ints:
     if selection is None:
         return np.arange(len(loaded.molecule))
-    chosen = np.flatnonzero(select(loaded.molecule, selection))
+    chosen = np.flatnonzero(select(loaded.molecule, selection, loaded.model))
     if len(chosen) == 0:
         raise InputError(f"selection {selection!r} means no atom; expected one at least", loaded.source)
     return chosen

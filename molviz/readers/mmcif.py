@@ -216,6 +216,8 @@ def _macromolecule(site: Site) -> Reading:
         bfactor=bfactor, radius=np.full(len(site), np.nan), occupancy=occupancy,
         alternate=site.first_texts("_atom_site.label_alt_id"),
         model=_order_of_first(site.first_texts("_atom_site.pdbx_PDB_model_num")), line_of=site.line_of,
+        segment=site.first_texts("_atom_site.label_asym_id"),
+        hetero=site.first_texts("_atom_site.group_PDB") == "HETATM",
     )  # fmt: skip
     models = models_of(table._replace(bonds=bonds_stated_in(site, table)), _name(site), site.source)
     assemblies, last = _assemblies(site)

@@ -136,7 +136,8 @@ def _table(atoms: Lines, model: Ints, source: str) -> tuple[AtomTable, list[str]
         residue_name=_names(atoms, 18, 21), residue=_residues(_names(atoms, 23, 27)), chain=chain,
         operator_chain=chain, bfactor=bfactor, radius=np.full(len(model), np.nan),
         occupancy=occupancy, alternate=_names(atoms, 17, 17), model=model,
-        line_of=lambda row: int(atoms.number[row]),
+        line_of=lambda row: int(atoms.number[row]), segment=_names(atoms, 73, 76),
+        hetero=np.char.startswith(np.char.upper(atoms.field(1, 6)), b"HETATM"),
     )  # fmt: skip
     return table, [*warnings, *more, *still_more]
 

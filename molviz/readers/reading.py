@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Floats, Ints, Strings
-from molviz.errors import InputError
+from molviz.errors import InputError, listed
 from molviz.model.bonds import joined
 from molviz.model.molecule import Molecule, column_names
 
@@ -50,7 +50,7 @@ class Reading:
         Raises InputError, naming the assemblies there are, where the file has no such operators.
         """
         if id not in self.assemblies:
-            known = ", ".join(self.assemblies) or "none"
+            known = listed(list(self.assemblies)) or "none"
             raise InputError(f"no assembly {id!r}; the file has operators for: {known}", self.source)
         molecule, chain = self.models[model], self.operator_chain[model]
         copies: list[Molecule] = []

@@ -11,7 +11,7 @@ import numpy as np
 
 from molviz import toml
 from molviz.arrays import Floats, Strings
-from molviz.errors import InputError, OptionError, expected_instead
+from molviz.errors import InputError, OptionError, expected_instead, listed
 from molviz.model.elements import symbol_of
 from molviz.model.molecule import Molecule
 
@@ -92,7 +92,7 @@ def _own(molecule: Molecule) -> Floats:
 def _guess_notes(element: Strings, table: str) -> list[str]:
     if not len(element):
         return []
-    counts = ", ".join(f"{symbol} ({count})" for symbol, count in sorted(Counter(element.tolist()).items()))
+    counts = listed([f"{symbol} ({count})" for symbol, count in sorted(Counter(element.tolist()).items())])
     return [f"radius guessed as {GUESS:.2f} Å, for table {table} has none: {counts}"]
 
 
