@@ -12,7 +12,7 @@ DRAW_OPTIONS ?=
 PAPER := --background white
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check pictures gallery bench tables figures clean
+.PHONY: help demo test check pictures gallery bench tables figures numpies clean
 
 help: ## show this help
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -74,6 +74,15 @@ tables: $(VENV)/installed ## Franklin's Tables 1 to 3 beside ours
 
 figures: $(VENV)/installed ## Franklin's Figs 1 to 5, before and after hidden line removal, into out/figures
 	$(BIN)/python benchmarks/franklin_figures.py
+
+numpies: $(VENV)/developed ## compare the bytes that two versions of numpy give
+	@for version in 1.26.4 2.0.2; do \
+		test -d $(VENV)-$$version || { $(PYTHON) -m venv $(VENV)-$$version && \
+			$(VENV)-$$version/bin/python -m pip install --quiet "numpy==$$version" --editable .; }; \
+		$(VENV)-$$version/bin/python -m tests.same_bytes > $(VENV)-$$version/digests || exit 1; \
+	done
+	$(BIN)/python -m tests.same_bytes | diff - $(VENV)-1.26.4/digests
+	diff $(VENV)-1.26.4/digests $(VENV)-2.0.2/digests && echo "The same bytes."
 
 clean: ## remove pictures and caches
 	rm -rf out pictures .pytest_cache .mypy_cache .ruff_cache .hypothesis

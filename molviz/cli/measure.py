@@ -17,6 +17,7 @@ from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.measure import PER, Measurement, Part, measurement
 from molviz.pipeline.outputs import stem_of
 from molviz.pipeline.values import input_options_from
+from molviz.rounding import SUM_DIGITS, significant
 
 Row = dict[str, Any]
 
@@ -80,7 +81,7 @@ def _part(part: Part) -> Row:
 
 
 def _split(area: float, exposed: float | None) -> Row:
-    return {} if exposed is None else {"exposed": exposed, "buried": area - exposed}
+    return {} if exposed is None else {"exposed": exposed, "buried": significant(area - exposed, SUM_DIGITS)}
 
 
 def _rows(measured: Iterable[Measurement], wanted: InputOptions, per: str | None) -> Iterator[Row]:

@@ -44,7 +44,7 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.boundary import Boundary, union_boundary
 from molviz.geometry.rows import expand
 from molviz.model.spheres import Spheres
-from molviz.vectors import dot
+from molviz.vectors import dot, length
 
 CANDIDATES = 16  # poles to choose from: for a hundred rims the best is seldom within 1e-3 of one
 GOLDEN = (1 + 5**0.5) / 2
@@ -92,10 +92,10 @@ def _rims(boundary: Boundary) -> _Rims:
     first, second = circles.first[arcs.circle], circles.second[arcs.circle]
     own, other = spheres.radius[first], spheres.radius[second]
     between = spheres.center[second] - spheres.center[first]
-    distance = np.linalg.norm(between, axis=1)
+    distance = length(between)
     axis = between / distance[:, None]
     excess = (own - other) * (own + other) / distance
-    radius = np.linalg.norm(circles.a[arcs.circle], axis=1)
+    radius = length(circles.a[arcs.circle])
     angle = arcs.start + arcs.sweep / 2
     middle = circles.spoke(arcs.circle, angle) / radius[:, None]
     fold = np.sqrt((distance**2 - (own - other) ** 2) / ((own + other) ** 2 - distance**2))

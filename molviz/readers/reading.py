@@ -11,6 +11,7 @@ from molviz.arrays import Floats, Ints, Strings
 from molviz.errors import InputError, listed
 from molviz.model.bonds import joined
 from molviz.model.molecule import Molecule, column_names
+from molviz.vectors import transformed
 
 
 class AssemblyPart(NamedTuple):
@@ -72,7 +73,7 @@ def _copies(molecule: Molecule, rows: Ints, part: AssemblyPart, made: int) -> li
     for number, operator in enumerate(part.operators, start=made + 1):
         chain = np.char.add(names, f"-{number}" if number > 1 else "")[name_of_atom] if len(rows) else original.chain
         with np.errstate(over="ignore", invalid="ignore"):  # who draws or measures refuses what is not finite
-            position = original.position @ operator[:, :3].T + operator[:, 3]
+            position = transformed(original.position, operator[:, :3]) + operator[:, 3]
         copies.append(replace(original, position=position, chain=chain))
     return copies
 

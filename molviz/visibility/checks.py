@@ -8,6 +8,7 @@ from molviz.errors import InternalError
 from molviz.geometry.intervals import Intervals, above, gaps
 from molviz.geometry.planar_map import euler_defect, loop_areas
 from molviz.geometry.rows import expand
+from molviz.vectors import length
 from molviz.visibility.eye import occluders_of, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.occlusion import discs_of, overlaps
@@ -67,7 +68,7 @@ def arcs_beside_wrong_faces(view_map: VisibilityMap, view: View) -> Ints:
     arcs = view_map.arcs
     middle = arcs.middle()
     along = arcs.tangent(middle)
-    size = np.linalg.norm(along, axis=1)
+    size = length(along)
     step = SIDE_STEP * size * np.minimum(np.abs(arcs.sweep), 1.0)
     rows = np.flatnonzero(step > LEAST_STEP * view_map.spheres.radius.max())
     left = np.column_stack([-along[rows, 1], along[rows, 0]]) / size[rows, None] * step[rows, None]

@@ -17,7 +17,7 @@ from molviz.picture.picture import (
     Stops,
     StrokeLayer,
 )
-from molviz.vectors import dot
+from molviz.vectors import dot, transformed
 from molviz.write.text import number
 
 FLATNESS = "0.2"  # of a device's pixel: curves flattened more coarsely, as many interpreters do, have corners
@@ -70,10 +70,10 @@ def offsets_at(gradient: Gradient, points: Floats) -> Floats:
     """
     if isinstance(gradient, LinearGradient):
         along = np.subtract(gradient.end, gradient.start)
-        return np.asarray((points - gradient.start) @ along / (along @ along))
+        return np.asarray(transformed(points - gradient.start, along[None])[:, 0] / np.sum(along**2))
     focus = np.array(gradient.focus)
-    d, left = points - focus, gradient.radius**2 - focus @ focus
-    product = d @ focus
+    d, left = points - focus, gradient.radius**2 - np.sum(focus**2)
+    product = transformed(d, focus[None])[:, 0]
     return np.asarray((product + np.sqrt(product**2 + left * dot(d, d))) / left)
 
 
