@@ -14,6 +14,7 @@ from molviz.pipeline.inputs import FORMATS, InputOptions, Loaded, load
 from molviz.pipeline.values import (
     CHOICES,
     parse_background,
+    parse_distance,
     parse_margin,
     parse_not_negative,
     parse_positive,
@@ -44,6 +45,7 @@ LENGTH = Parsed("length", parse_width)
 MARGIN = Parsed("length", parse_margin)
 ROTATION = Parsed("axis,degrees", parse_rotation)
 BACKGROUND = Parsed("color", parse_background)
+DISTANCE = Parsed("number", parse_distance)
 POSITIVE = Parsed("number", parse_positive)
 NOT_NEGATIVE = Parsed("number", parse_not_negative)
 USUAL = {name: parameter.default for name, parameter in signature(door.draw).parameters.items()}
@@ -97,7 +99,7 @@ eye_options = applied(
         help="Starting orientation: principal axes, widest side across, or as in the file.",
     ),
     shared("rotate", type=ROTATION, multiple=True, help="Then turn about an axis of the page; repeatable."),
-    shared("perspective", type=POSITIVE, metavar="DISTANCE", help="Central projection; eye's distance in Å."),
+    shared("perspective", type=DISTANCE, metavar="DISTANCE", help="Central projection; eye's distance in Å."),
 )
 page_options = applied(
     shared("width", type=LENGTH, help="Width of the drawing, e.g. 8cm."),

@@ -22,6 +22,7 @@ from molviz.picture.picture import Color, Picture
 from molviz.picture.style import load_style
 from molviz.pipeline.inputs import Loaded, refuse_unresolved
 from molviz.pipeline.outputs import encoded, refuse_inputs, save
+from molviz.pipeline.units import in_unit, unit_of, view_in_unit
 from molviz.pipeline.values import (
     Options,
     chosen,
@@ -36,6 +37,7 @@ from molviz.pipeline.values import (
 )
 from molviz.pipeline.views import ViewOptions, view_of
 from molviz.visibility.checks import check_map
+from molviz.visibility.eye import refuse_eye_among
 from molviz.visibility.lines import slivers
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.map_json import map_as_data
@@ -75,7 +77,7 @@ class Drawing:
     arcs: int
     _loaded: Loaded
     _options: DrawOptions  # settled
-    _view: View
+    _view: View  # in lengths of the options' unit, as what is seen
     _seen: VisibilityMap | Pieces
     subject: Subject  # the molecule, and what there is to tell of it
 
@@ -172,7 +174,7 @@ class Drawing:
 
     def _map_as_json(self) -> bytes:
         assert isinstance(self._seen, VisibilityMap)  # painter's pieces were refused
-        data = map_as_data(self._seen, self._loaded.molecule.row[self.subject.atom], self._view)
+        data = map_as_data(self._seen, self._loaded.molecule.row[self.subject.atom], self._view, self._options.unit)
         return json.dumps(data, separators=(",", ":")).encode() + b"\n"
 
 
@@ -225,20 +227,32 @@ def drawing_of(
 
 
 def drawings_of(
-    loaded: Loaded, request: DrawRequest, views: Sequence[View], method: str = "visible", check: bool = False
+    loaded: Loaded,
+    request: DrawRequest,
+    views: Sequence[View],
+    method: str = "visible",
+    check: bool = False,
+    unit: float | None = None,
 ) -> list[Drawing]:
-    """Return one model drawn from each view; what no view changes is computed once. As ``drawing_of`` otherwise."""
+    """Return one model drawn from each view; what no view changes is computed once. As ``drawing_of`` otherwise.
+
+    ``unit`` in ångström is that of the set which the drawings belong to, None for the model's own.
+    """
     refuse_unresolved(loaded)
-    scene = Scene(loaded.spheres, only=views[0] if len(views) == 1 else None)
-    options = request.options.settled(entities_of(loaded.molecule), method == "painter")
-    subject = subject_of(loaded, request, options)
+    for view in views:
+        refuse_eye_among(loaded.spheres, view)
+    unit = unit_of(loaded) if unit is None else unit
+    scaled, views = in_unit(loaded, unit), [view_in_unit(view, unit) for view in views]
+    scene = Scene(scaled.spheres, only=views[0] if len(views) == 1 else None)
+    options = request.options.settled(entities_of(scaled.molecule), method == "painter").in_unit(unit)
+    subject = replace(subject_of(loaded, request, options), molecule=scaled.molecule)
     return [_seen_from(view, scene, loaded, subject, options, method, check) for view in views]
 
 
 def subject_of(loaded: Loaded, request: DrawRequest, options: DrawOptions) -> Subject:
     """Return what there is to tell of a model, before anything is known of views; ``options`` are settled."""
     molecule, nowhere = loaded.molecule, np.zeros(2)
-    values = color_values(loaded, str(options.color_by))
+    values = color_values(loaded, str(options.color_by), options.unit)
     painted = tuple(
         Painted(select(molecule, selection, loaded.model), color, selection) for selection, color in request.colors
     )
@@ -260,19 +274,19 @@ def _seen_from(
         if check:
             check_map(seen, view)
         visible, arcs = int(np.sum(np.unique(seen.loops.face[~slivers(seen)]) != BACKGROUND)), len(seen.left)
-    low, high = extent(loaded.spheres, view)
+    low, high = extent(scene.spheres, view)
     subject = replace(subject, atom=atom, low=low, high=high)
     return Drawing(loaded.read, len(loaded.molecule), visible, arcs, loaded, options, view, seen, subject)
 
 
-def color_values(loaded: Loaded, scheme: str) -> Floats:
+def color_values(loaded: Loaded, scheme: str, unit: float = 1.0) -> Floats:
     """Return what a continuous colour scheme shows of each atom (n,), NaN for other schemes.
 
     Exposure is the exact solvent-accessible area of the atom in Å² among the atoms drawn: the table's radii, whatever
-    those of the drawing, and a water of radius 1.4 Å.
+    those of the drawing, and a water of radius 1.4 Å (1.4 times the ``unit`` of a scene).
     """
     if scheme == "exposure":
-        return measure_spheres(loaded.bare.enlarged(1.0, WATER_RADIUS)).area
+        return measure_spheres(loaded.bare.enlarged(1.0, WATER_RADIUS * unit)).area
     return loaded.molecule.bfactor if scheme == "bfactor" else np.full(len(loaded.molecule), np.nan)
 
 
