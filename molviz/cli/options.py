@@ -92,6 +92,12 @@ input_options = applied(
     click.option("--quiet", is_flag=True, help="No summary line and no warnings."),
     click.option("--strict", is_flag=True, help="Warnings become errors."),
 )
+batch_options = applied(
+    click.option(
+        "-j", "--jobs", type=click.IntRange(0), default=1, metavar="N", help="So many inputs at once; 0: all cores."
+    ),
+    click.option("--dask", metavar="ADDRESS", help="Let a Dask cluster do the work (pip install 'molviz[dask]')."),
+)
 eye_options = applied(
     shared(
         "orient",

@@ -10,6 +10,7 @@ one circle (``COINCIDE``): they belong to a pencil, with their centres in a line
 boundary, so ball k covers the crease of i and j unless its centre lies between theirs.
 """
 
+import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
@@ -27,7 +28,7 @@ from molviz.model.spheres import Spheres
 from molviz.vectors import length
 
 BLOCK_ENTRIES = 1 << 17  # entries (sphere, cap, cap) at a time: their temporaries stay in cache
-THREADS = 2
+THREADS = 1 if os.environ.get("OMP_NUM_THREADS") == "1" else 2  # one where many processes share the cores
 
 
 class Boundary(NamedTuple):
