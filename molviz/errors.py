@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
+MOST_LETTERS = 1000  # of a message, names of files not counted
 MOST_LISTED = 12  # names in a message: who needs the others asks the file
 
 
@@ -12,6 +13,8 @@ class InputError(ValueError):
     """
 
     def __init__(self, message: str, source: str = "", line: int | None = None) -> None:
+        if len(message) > MOST_LETTERS:
+            message = f"{message[: MOST_LETTERS // 2]} … {message[-MOST_LETTERS // 2 :]}"
         where = "".join(f"{part}:" for part in (source, line) if part not in ("", None))
         super().__init__(f"{where} {message}" if where else message)
 

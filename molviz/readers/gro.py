@@ -103,7 +103,11 @@ def _positions(frame: Frame, source: str) -> Floats:
         return InputError(message, source, frame.line + index // 3)
 
     cells = [text[k : k + width] for text in frame.rows for k in range(_NAMES, end, width)]
-    return numbers(np.array(cells), error).reshape(-1, 3) * NANOMETRE
+    with np.errstate(over="ignore"):
+        position = numbers(np.array(cells), error) * NANOMETRE
+    for index in np.flatnonzero(np.isinf(position))[:1].tolist():
+        raise error(index, cells[index].decode("latin-1"))
+    return position.reshape(-1, 3)
 
 
 def _width(row: bytes, source: str, line: int) -> int:
