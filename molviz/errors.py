@@ -15,6 +15,7 @@ class InputError(ValueError):
     def __init__(self, message: str, source: str = "", line: int | None = None) -> None:
         if len(message) > MOST_LETTERS:
             message = f"{message[: MOST_LETTERS // 2]} … {message[-MOST_LETTERS // 2 :]}"
+        self.line = line
         where = "".join(f"{part}:" for part in (source, line) if part not in ("", None))
         super().__init__(f"{where} {message}" if where else message)
 

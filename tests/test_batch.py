@@ -63,8 +63,8 @@ def test_a_count_and_a_table_of_failures_close_a_batch(inputs: list[str]) -> Non
     assert lines[-5] == "molviz: 5 of 9 inputs done, 4 failed:"
     assert [line.split()[:2] for line in lines[-4:]] == [[name, "1"] for name in sorted(BROKEN)]
     assert "only 1 follow" in lines[-4] and all(sum(name in line for line in lines) >= 2 for name in BROKEN)
-    assert run("measure", "a.xyz", "b.xyz").stderr == "molviz: 2 of 2 inputs done\n"
-    assert run("measure", "a.xyz", "b.xyz", "--quiet").stderr == "" == run("measure", "a.xyz").stderr
+    assert run("measure", "a.xyz", "b.xyz", "f.xyz").stderr == "molviz: 3 of 3 inputs done\n"
+    assert run("measure", "a.xyz", "b.xyz", "f.xyz", "--quiet").stderr == "" == run("measure", "a.xyz", "b.xyz").stderr
 
 
 def test_the_exit_status_is_that_of_the_worst(inputs: list[str]) -> None:

@@ -13,6 +13,7 @@ from molviz.errors import InputError
 
 PASSED_ON = (click.exceptions.Exit, click.ClickException, click.Abort, OSError)
 STANDARD_INPUT = "-"
+MANY = 3  # inputs: of fewer, all that was said is in view
 LONGEST_REASON = 100  # letters of a reason in the table of failures; it was told in full before
 
 T = TypeVar("T")
@@ -50,7 +51,7 @@ def for_each(
 ) -> None:
     """Do some work for every input and tell each result, in their order; failures are told as they come.
 
-    At the end of several inputs, their count and a table of failures; the exit status is that of the worst.
+    At the end of ``MANY`` inputs, their count and a table of failures; the exit status is that of the worst.
     """
     failed: list[Outcome] = []
     progress = Progress(len(sources))
@@ -66,7 +67,7 @@ def for_each(
                 progress(f"{number} of {len(sources)}")
     finally:
         progress.close()
-    if len(sources) > 1 and (failed or not quiet):
+    if len(sources) >= MANY and (failed or not quiet):
         say(*_closing(len(sources), failed))
     if failed:
         sys.exit(max(outcome.status for outcome in failed))

@@ -10,7 +10,7 @@ from molviz.arrays import Bools, Floats
 from molviz.errors import InputError, OptionError, listed
 from molviz.model.elements import UNKNOWN
 from molviz.model.molecule import Molecule
-from molviz.model.radii import DEFAULT, OWN
+from molviz.model.radii import DEFAULT, OWN, is_known
 from molviz.model.selection import is_hydrogen, is_water, select
 from molviz.model.spheres import Spheres, spheres_of
 from molviz.readers import FORMATS as READERS
@@ -20,6 +20,7 @@ FAR_APART = 4000.0  # radii: wider pictures have more pixels than a screen, if e
 SHORTEST, LONGEST = 1e-60, 1e60  # ångström: fourth powers, and quotients of them, are numbers
 RESOLVED = 64  # steps of the rounding in a radius, at least, for a ball to be told from its neighbours
 FORMATS = tuple(READERS)
+DUMMIES = ("X", "XX", "DU", "LP", "Q", "*")  # symbols of no element
 WITH_CHARGES = ("pqr",)  # whose radii are a force field's, for electrostatics: used where they are asked for
 
 
@@ -99,6 +100,7 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
     molecule = _named(_kept(whole, wanted, reading.source, number), reading.source)
     if reading.format in WITH_CHARGES and wanted.radii != OWN:
         molecule = replace(molecule, radius=np.where(molecule.element == UNKNOWN, molecule.radius, np.nan))
+    _refuse_beads(whole, molecule, wanted.radii, reading.source)
     bare, warnings = spheres_of(molecule, wanted.radii)
     _refuse_unheld("a radius", bare.radius, SHORTEST, reading.source)
     spheres = bare.enlarged(wanted.scale_radii, wanted.probe)
@@ -108,6 +110,19 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
     return Loaded(
         reading.source, reading.format, number, count, len(whole), molecule, spheres, bare, reading.warnings + told
     )
+
+
+def _refuse_beads(whole: Molecule, molecule: Molecule, table: str, source: str) -> None:
+    """Raise InputError for a model of which no element is known, unless radii of its own or of the table are.
+
+    Atoms that are called dummies are known to have none.
+    """
+    known = np.any(whole.element != UNKNOWN) or np.any(np.isin(np.char.upper(whole.atom_name), DUMMIES))
+    if known or table == OWN or np.any(is_known(molecule, table)):
+        return
+    names = listed(list(dict.fromkeys(whole.atom_name.tolist())))
+    message = f"no atom's element is known, as in coarse-grained models; the names are {names}"
+    raise InputError(f"{message}; expected --radii FILE with [names] that gives their radii", source)
 
 
 def _refuse_unheld(what: str, size: Floats, least: float, source: str) -> None:

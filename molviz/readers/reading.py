@@ -1,7 +1,7 @@
 """What a file held: its models and the assemblies that its own operators make of them."""
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
@@ -63,6 +63,31 @@ class Reading:
         if not sum(map(len, copies)):
             raise InputError(f"assembly {id!r} is made of chains that are not in the file", self.source)
         return _joined(copies)
+
+
+class BeyondCountError(InputError):
+    """More atoms than the count of a frame says: that frame is in doubt, not the next."""
+
+
+def sound_frames(frames: Iterable[Molecule]) -> tuple[tuple[Molecule, ...], list[str]]:
+    """Return the frames of a trajectory before the first whose making raises InputError, and a warning about that.
+
+    Raises what the first frame raises, and BeyondCountError.
+    """
+    sound: list[Molecule] = []
+    try:
+        for frame in frames:
+            sound.append(frame)
+    except InputError as wrong:
+        if not sound or isinstance(wrong, BeyondCountError):
+            raise
+        return tuple(sound), [left_out(wrong, len(sound), "frame")]
+    return tuple(sound), []
+
+
+def left_out(wrong: InputError, sound: int, what: str) -> str:
+    """Return the warning that a file is read up to its first broken frame or model."""
+    return f"{wrong}; {what} {sound + 1} and all behind it are left out"
 
 
 def _copies(molecule: Molecule, rows: Ints, part: AssemblyPart, made: int) -> list[Molecule]:

@@ -73,6 +73,8 @@ def offsets_at(gradient: Gradient, points: Floats) -> Floats:
         return np.asarray(transformed(points - gradient.start, along[None])[:, 0] / np.sum(along**2))
     focus = np.array(gradient.focus)
     d, left = points - focus, gradient.radius**2 - np.sum(focus**2)
+    if left <= 0:  # a ball of no size at the digits that are written: all of it is edge
+        return np.ones(len(points))
     product = transformed(d, focus[None])[:, 0]
     return np.asarray((product + np.sqrt(product**2 + left * dot(d, d))) / left)
 
