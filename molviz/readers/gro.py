@@ -4,6 +4,7 @@ GROMACS reference manual, "File formats", gro: residue number, residue name, ato
 each, then x, y, z in nanometres, each as wide as the distance between two decimal points; velocities may follow.
 """
 
+import re
 from collections.abc import Iterator
 from pathlib import PurePath
 from typing import NamedTuple
@@ -20,6 +21,7 @@ from molviz.readers.reading import Reading, sound_frames
 from molviz.readers.source import note
 
 NANOMETRE = 10.0  # ångström
+_COUNT = re.compile(rb"\d{1,18}")
 _NAMES = 20  # columns before the coordinates
 _BOX_WORDS = (3, 9)  # a rectangular box, or three vectors
 
@@ -55,7 +57,7 @@ def _frames(lines: list[bytes], source: str) -> Iterator[Frame]:
 def _frame(lines: list[bytes], at: int, source: str) -> Frame:
     """Return the frame whose title stands at the given index."""
     text = lines[at + 1].strip() if at + 1 < len(lines) else b""
-    if not text.isdigit() or int(text) < 1:
+    if not _COUNT.fullmatch(text) or int(text) < 1:
         shown = text.decode("latin-1")[:40]
         raise InputError(f"{shown!r} below the title; expected the number of atoms of a frame", source, at + 2)
     count = int(text)
