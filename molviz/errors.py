@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
-MOST_LETTERS = 1000  # of a message, names of files not counted
+MOST_LETTERS = 6000  # of a message: more than the longest path has
 MOST_LISTED = 12  # names in a message: who needs the others asks the file
 
 

@@ -35,7 +35,7 @@ from molviz.readers import FORMATS, read
 ROOT = Path(__file__).parent
 SECONDS, MEMORY = 5.0, 1 << 30
 USED = 0.1  # of what was read is measured too
-LONGEST_MESSAGE = 2000  # letters
+LONGEST_MESSAGE = 7000  # letters
 LONGEST_SEED = 4000  # bytes of a file that is varied; a small one is tried often
 
 NASTY = [
