@@ -8,11 +8,13 @@ SAMPLES := $(wildcard samples/*.pdb samples/*.pdb.gz samples/*.cif samples/*.cif
 STEMS := $(basename $(notdir $(SAMPLES:.gz=)))
 PICTURES := $(foreach stem,$(STEMS),pictures/$(stem).svg pictures/$(stem).ps)
 DRAW_OPTIONS ?=
+FUZZ ?=
+SOAK ?=
 # for black lines and text, which a dark page would swallow
 PAPER := --background white
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check pictures gallery bench tables figures clean
+.PHONY: help demo test check pictures gallery bench tables figures fuzz soak numpies clean
 
 help: ## show this help
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -80,6 +82,21 @@ tables: $(VENV)/installed ## Franklin's Tables 1 to 3 beside ours
 
 figures: $(VENV)/installed ## Franklin's Figs 1 to 5, before and after hidden line removal, into out/figures
 	$(BIN)/python benchmarks/franklin_figures.py
+
+fuzz: $(VENV)/developed ## inputs that nobody would write (FUZZ="--seed 1 --count 2000000"); the seed is printed
+	$(BIN)/python -m tests.fuzz $(FUZZ)
+
+soak: $(VENV)/developed ## scenes against a z-buffer, closed forms and all invariants (SOAK="--seed 1 --count 5000")
+	$(BIN)/python -m tests.soak $(SOAK)
+
+numpies: $(VENV)/developed ## compare the bytes that two versions of numpy give
+	@for version in 1.26.4 2.0.2; do \
+		test -d $(VENV)-$$version || { $(PYTHON) -m venv $(VENV)-$$version && \
+			$(VENV)-$$version/bin/python -m pip install --quiet "numpy==$$version" --editable .; }; \
+		$(VENV)-$$version/bin/python -m tests.same_bytes > $(VENV)-$$version/digests || exit 1; \
+	done
+	$(BIN)/python -m tests.same_bytes | diff - $(VENV)-1.26.4/digests
+	diff $(VENV)-1.26.4/digests $(VENV)-2.0.2/digests && echo "The same bytes."
 
 clean: ## remove pictures and caches
 	rm -rf out pictures .pytest_cache .mypy_cache .ruff_cache .hypothesis

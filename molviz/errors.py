@@ -1,6 +1,9 @@
 """What can go wrong: with a user's data, with what they ask for, and with molviz itself."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+
+MOST_LETTERS = 6000  # of a message: more than the longest path has
+MOST_LISTED = 12  # names in a message: who needs the others asks the file
 
 
 class InputError(ValueError):
@@ -10,6 +13,9 @@ class InputError(ValueError):
     """
 
     def __init__(self, message: str, source: str = "", line: int | None = None) -> None:
+        if len(message) > MOST_LETTERS:
+            message = f"{message[: MOST_LETTERS // 2]} … {message[-MOST_LETTERS // 2 :]}"
+        self.line = line
         where = "".join(f"{part}:" for part in (source, line) if part not in ("", None))
         super().__init__(f"{where} {message}" if where else message)
 
@@ -23,6 +29,12 @@ class InternalError(Exception):
 
     def __init__(self, message: str) -> None:
         super().__init__(f"{message}; this is a failure of molviz: please report it together with the input")
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names for a message, a long list cut."""
+    more = len(names) - MOST_LISTED
+    return ", ".join(names) if more <= 0 else f"{', '.join(names[:MOST_LISTED])} … and {more} more"
 
 
 def expected_instead(wrong: str, known: Iterable[str], otherwise: str) -> str:

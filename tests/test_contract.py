@@ -96,3 +96,10 @@ def test_the_command_in_a_picture_says_nothing_of_json(tmp_path: Path) -> None:
         assert run("draw", CAFFEINE, *words, "-o", str(tmp_path / "x.svg")).exit_code == 0
         pictures.append((tmp_path / "x.svg").read_bytes())
     assert pictures[0] == pictures[1]
+
+
+def test_long_lists_of_alternatives_are_cut(tmp_path: Path) -> None:
+    rows = [f"HETATM{k:>5}  C   LIG {chr(48 + k)}   1    {2.0 * k:8.3f}   0.000   0.000" for k in range(70)]
+    (tmp_path / "x.pdb").write_text("\n".join(rows) + "\n", encoding="ascii")
+    result = run("info", str(tmp_path / "x.pdb"), "--select", "resi 7")
+    assert result.exit_code == 1 and "0, 1, 2" in result.stderr and "… and 58 more" in result.stderr

@@ -66,6 +66,8 @@ NOT_IN_PYTHON = {
     "strict": "Python's warning filters do it",
     "plotter": "of one format: to('hpgl', plotter=…), save(path, plotter=…)",
     "paper": "of one format, as the plotter",
+    "jobs": "one thing is drawn by a call",
+    "dask": "one thing is drawn by a call",
     "per": "measure gives the areas of all atoms as an array",
     "as_json": "measure gives arrays",
     "as_csv": "measure gives arrays",

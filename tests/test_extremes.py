@@ -59,6 +59,59 @@ def test_small_and_large_scenes_are_seen_as_they_are(exponent: int, method: str)
     assert same[0] == same[1] > 0
 
 
+NUMBER = re.compile(r"-?(?:\d+\.?\d*|\.\d+)")
+SIZED = {  # lengths among the options, which are the scene's
+    "parallel": {}, "eye": {"perspective": 30.0}, "painter": {"method": "painter"},
+    "bar": {"scale_bar": 2.0, "width": "9cm"}, "exposure": {"color_by": "exposure", "legend": True},
+    "turntable": {"turntable": 3}, "stereo": {"stereo": "wall"},
+    "labels": {"label": "index 1=x", "color": "x > {}=crimson"}, "scale": {"scale": 25.0},
+}  # fmt: skip
+
+
+def sized(how: str, style: str, scale: float) -> str:
+    options = dict(SIZED[how], style=style)
+    for name in ("perspective", "scale_bar"):
+        options |= {name: options[name] * scale} if name in options else {}
+    options |= {"scale": options["scale"] / scale} if "scale" in options else {}
+    options |= {"color": options["color"].format(0.25 * scale)} if "color" in options else {}
+    drawing = molviz.draw((SCENE * scale, RADII * scale), **options)
+    svg = drawing.to("svg").decode()
+    return re.sub(r'(id|class|href)="[^"]*"|url\(#[^)]*\)|<style.*?</style>', "", svg)  # names are of this very file
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("how", SIZED)
+@pytest.mark.parametrize("scale", [1e-5, 1e-3, 1e3])
+def test_a_scene_times_a_power_of_ten_is_drawn_like_the_scene(scale: float, how: str) -> None:
+    for style in ("goodsell", "cel", "shaded", "hatch", "flat"):
+        if how != "painter" or style != "goodsell":
+            pictures = [re.sub("<text.*?</text>|<desc.*?</desc>", "", sized(how, style, one)) for one in (1.0, scale)]
+            usual, other = (np.array(NUMBER.findall(picture), dtype=float) for picture in pictures)
+            assert len({NUMBER.sub("0", picture) for picture in pictures}) == 1
+            assert np.allclose(usual, other, rtol=0, atol=0.0201)  # the last digit that is written
+
+
+def test_lengths_in_a_picture_are_those_of_the_scene() -> None:
+    for scale, text in ((1.0, "2 Å"), (1e3, "200 nm"), (1e-5, "2e-05 Å")):
+        svg = molviz.draw((SCENE * scale, RADII * scale), scale_bar=2 * scale).svg()
+        assert f">{text}</text>" in svg
+    for scale in (1.0, 1e3, 1e-5):
+        drawing = molviz.draw((SCENE * scale, RADII * scale), orient="file")
+        told = json.loads(drawing.to("json"))
+        center = np.array([one["center"] for one in sorted(told["spheres"], key=lambda one: one["atom"])])
+        assert np.allclose(center, SCENE * scale, rtol=0, atol=1e-4 * 1.8 * scale)
+        with pytest.raises(InputError, match=f"more than {2.55 * scale:.2f}"[:13]):
+            molviz.draw((SCENE * scale, RADII * scale), perspective=0.5 * scale, orient="file")
+
+
+def test_what_a_table_gives_radii_is_drawn_in_angstrom() -> None:
+    molecule = Molecule.of("x", SCENE, np.array(["C", "N", "O", "H", "S"]))
+    for options in ({}, {"scale_radii": 0.01}, {"radii": "covalent"}):
+        assert molviz.draw(molecule, style="flat", **options)._options.unit == 1.0  # type: ignore[arg-type]
+    assert molviz.draw((SCENE, RADII * 0.4))._options.unit == 1.0
+    assert molviz.draw((SCENE, RADII * 0.04))._options.unit == 0.1
+
+
 @settings(deadline=None, max_examples=40)
 @given(st.lists(st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 3,
                           st.floats(min_value=5e-324, allow_infinity=False)), min_size=1, max_size=5))  # fmt: skip

@@ -27,9 +27,11 @@ def mask(loaded: Loaded, eye: ViewOptions, suffix: str, method: str) -> tuple[by
     seen = view_of(loaded.spheres, eye).of(loaded.spheres)
     low, high = bounds(seen, eye.distance)
     scale = SIZE / float((high - low).max())
-    page = Page(scale=scale)
-    look = DrawOptions(load_palette("tide"), color_by="index", outline=0.0, crease=0.0, page=page)
-    return drawing_of(loaded, DrawRequest(look), eye, method).to(suffix), seen, scale
+    return drawing_of(loaded, DrawRequest(mask_options(scale)), eye, method).to(suffix), seen, scale
+
+
+def mask_options(scale: float) -> DrawOptions:
+    return DrawOptions(load_palette("tide"), color_by="index", outline=0.0, crease=0.0, page=Page(scale=scale))
 
 
 def bounds(spheres: Spheres, distance: float | None = None) -> tuple[np.ndarray, np.ndarray]:

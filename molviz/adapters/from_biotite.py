@@ -20,7 +20,7 @@ def models_of_array(array: Any) -> Models:
     return plain_models(
         Molecule.of(
             "", array.coord, element, atom_name=array.atom_name, residue_name=array.res_name,
-            residue=_residues(array), chain=array.chain_id, stated_bonds=_bonds(array), **columns,
+            residue=_residues(array), chain=array.chain_id, hetero=array.hetero, stated_bonds=_bonds(array), **columns,
         ),
     )  # fmt: skip
 

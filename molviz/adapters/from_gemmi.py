@@ -30,6 +30,8 @@ class _Row(NamedTuple):
     bfactor: float
     occupancy: float
     alternate: str
+    segment: str
+    hetero: bool
 
 
 def models_of_structure(structure: Any) -> Models:
@@ -79,4 +81,6 @@ def _row(number: int, place: Any) -> _Row:
         bfactor=atom.b_iso,
         occupancy=atom.occ,
         alternate=atom.altloc.strip("\0"),
+        segment=residue.segment,
+        hetero=residue.het_flag == "H",
     )

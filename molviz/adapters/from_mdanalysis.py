@@ -34,7 +34,8 @@ def models_of_group(group: Any) -> Models:
     return plain_models(
         Molecule.of(
             PurePath(str(group.universe.filename or "")).stem, position, _elements(group),
-            residue=_residues(group), chain=_chains(group), stated_bonds=_bonds(group), **columns,
+            residue=_residues(group), chain=_chains(group), segment=_named(group, "segids"),
+            hetero=_column(group, "record_types") == "HETATM", stated_bonds=_bonds(group), **columns,
         ),
     )  # fmt: skip
 
@@ -72,7 +73,11 @@ def _residues(group: Any) -> Strings:
 
 
 def _chains(group: Any) -> Strings:
-    """The chain, else the segment; SYSTEM is what MDAnalysis calls a segment without a name."""
-    name = "chainIDs" if hasattr(group, "chainIDs") else "segids"
-    chain = _column(group, name).astype(str)
-    return np.where(chain == "SYSTEM", "", chain)
+    """The chain, else the segment."""
+    return _named(group, "chainIDs" if hasattr(group, "chainIDs") else "segids")
+
+
+def _named(group: Any, name: str) -> Strings:
+    """A column of names; SYSTEM is what MDAnalysis calls a segment without one."""
+    names = _column(group, name).astype(str)
+    return np.where(names == "SYSTEM", "", names)

@@ -52,5 +52,6 @@ def _residues(infos: list[Any]) -> dict[str, Any]:
         "residue_name": [info.GetResidueName().strip() for info in infos],
         "residue": [f"{info.GetResidueNumber()}{info.GetInsertionCode().strip()}" for info in infos],
         "chain": [info.GetChainId().strip() for info in infos],
+        "hetero": [info.GetIsHeteroAtom() for info in infos],
         "bfactor": [info.GetTempFactor() for info in infos],
     }

@@ -3,19 +3,20 @@
 import os
 import shlex
 import time
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 from pathlib import PurePath
-from typing import Any
+from typing import Any, NamedTuple
 
 import click
 
-from molviz.cli.batch import for_each
+from molviz.cli.batch import for_each, where_from
 from molviz.cli.main import TYPED
 from molviz.cli.options import (
     POSITIVE,
     Parsed,
     applied,
+    batch_options,
     eye_options,
     input_options,
     load_and_warn,
@@ -35,7 +36,7 @@ from molviz.pipeline.sets import ONE_EACH, DrawingSet, SetOptions, drawn, holds_
 from molviz.pipeline.values import input_options_from, parse_count, parse_scale_bar, view_options_from
 from molviz.pipeline.views import ViewOptions
 
-PLACES = ("-o", "--output", "--to")  # options that say where a result goes
+PLACES = ("-o", "--output", "--to", "-j", "--jobs", "--dask")  # options that say where the result goes, who makes it
 STAGES = 3  # reading, what is seen, writing
 
 SCALE_BAR = Parsed("ångström", parse_scale_bar)
@@ -86,6 +87,7 @@ plotter_options = applied(
 @plotter_options
 @click.option("--json", "as_json", is_flag=True, help="The summary as one JSON object a line on standard output.")
 @input_options
+@batch_options
 def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
     """Draw molecules as exact vector pictures.
 
@@ -93,7 +95,7 @@ def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
     Examples:
       molviz draw caffeine.xyz -o caffeine.svg
       molviz draw 4hhb.pdb --color 'resn HEM=crimson' --label 'resn HEM' -o 4hhb.ps
-      molviz draw *.cif -o 'pictures/{stem}.pdf'
+      molviz draw *.cif -o 'pictures/{stem}.pdf' -j 0
       molviz draw 1hpv.pdb --rep 'resn 478=sticks' -o pocket.svg
       molviz draw 4hhb.pdb --turntable 36 -o spin.svg
       molviz draw nmr.cif --model all -o 'frames/{n}.svg'
@@ -112,19 +114,22 @@ def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     if together.many and not holds_set(output, suffix):
         raise click.UsageError(f"{suffix} holds one picture; {ONE_EACH}")
 
-    def one(source: str) -> None:
-        _draw_one(source, target_of(source, output, suffix), suffix, wanted, look, eye, together, options)
-
-    for_each(inputs, one)
+    task = DrawTask(
+        wanted, look, eye, together, output, suffix, options["plotter"], options["paper"], options["method"],
+        options["check"], options["quiet"], options["strict"], {source: drawn_by(source) for source in inputs},
+        read_by(options), len(inputs) == 1,
+    )  # fmt: skip
+    for_each(inputs, task, _tell_json if options.get("as_json") else _tell(options["quiet"]), where_from(options),
+             options["quiet"])
 
 
 def drawn_by(source: str) -> str:
-    """Return the command that draws one input, as it may be typed again: without where the result goes."""
+    """Return the command that draws one input, as it may be typed again: without where and by whom it is done."""
     typed = click.get_current_context().meta.get(TYPED, [])
     kept: list[str] = []
     for before, word in zip(["", *typed], typed, strict=False):
         named = word.partition("=")[0]
-        if before not in PLACES and named not in (*PLACES, "--quiet", "--strict", "--json"):
+        if before not in PLACES and named not in (*PLACES, "--quiet", "--strict", "--json") and named[:2] != "-j":
             kept.append(word)
     inputs = click.get_current_context().params.get("inputs", ())
     options = [word for word in kept[1:] if word not in inputs]
@@ -151,36 +156,67 @@ def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str, opt
         drawn_from[target] = source
 
 
-def _draw_one(
-    source: str,
-    target: str,
-    suffix: str,
-    wanted: InputOptions,
-    look: DrawRequest,
-    eye: ViewOptions,
-    together: SetOptions,
-    options: dict[str, Any],
-) -> None:
-    began, progress = time.monotonic(), Progress(STAGES)
-    progress("reading")
-    models, size = load_and_warn(source, wanted, options["quiet"], options["strict"]), 0
-    try:
-        progress("what is seen")
-        described = replace(look, description=drawn_by(source))
-        drawing = drawn(models, described, eye, together, options["method"], options["check"])
-        warn(drawing.notes, options["quiet"], options["strict"])
-        progress("writing")
-        for path, data in files_of(drawing, target, suffix, options["plotter"], options["paper"]):
-            refuse_inputs(path, read_by(options))
-            save(path, data, makes_folder(options["output"] or ""))
+@dataclass(frozen=True)
+class DrawTask:
+    """What is to be done for each input; other processes can do it."""
+
+    wanted: InputOptions
+    look: DrawRequest
+    eye: ViewOptions
+    together: SetOptions
+    output: str
+    suffix: str
+    plotter: str
+    paper: str
+    method: str
+    check: bool
+    quiet: bool
+    strict: bool
+    described: dict[str, str]  # for each input, the command that draws it
+    read: tuple[str, ...]  # names of all files that the command reads
+    alone: bool  # the only input, whose stages are shown
+
+    def __call__(self, source: str) -> "Drawn":
+        """Draw one input and return what there is to tell of it."""
+        began, progress = time.monotonic(), Progress(STAGES if self.alone else 0)
+        progress("reading")
+        models = load_and_warn(source, self.wanted, self.quiet, self.strict)
+        try:
+            progress("what is seen")
+            look = replace(self.look, description=self.described[source])
+            drawing = drawn(models, look, self.eye, self.together, self.method, self.check)
+            warn(drawing.notes, self.quiet, self.strict)
+            progress("writing")
+            target = target_of(source, self.output, self.suffix)
+            size = self.saved(drawing, target)
+        finally:
+            progress.close()
+        pictures = len(drawing) if isinstance(drawing, DrawingSet) else None
+        counts = (drawing.atoms_read, drawing.atoms_drawn, drawing.visible, drawing.arcs)
+        return Drawn(source, target, pictures, *counts, size, time.monotonic() - began)
+
+    def saved(self, drawing: Drawing | DrawingSet, target: str) -> int:
+        """Write all files of a drawing and return how many bytes they have."""
+        size = 0
+        for path, data in files_of(drawing, target, self.suffix, self.plotter, self.paper):
+            refuse_inputs(path, self.read)
+            save(path, data, makes_folder(self.output))
             size += len(data)
-    finally:
-        progress.close()
-    seconds = time.monotonic() - began
-    if options.get("as_json"):
-        tell_json(_summary_as_data(source, target, drawing, size, seconds))
-    elif not options["quiet"]:
-        say(_summary(source, target, drawing, size, seconds))
+        return size
+
+
+class Drawn(NamedTuple):
+    """What there is to tell of one input that was drawn."""
+
+    file: str
+    output: str
+    pictures: int | None  # of a set
+    atoms: int
+    drawn: int
+    visible: int
+    arcs: int
+    bytes: int
+    seconds: float
 
 
 def files_of(
@@ -192,21 +228,21 @@ def files_of(
     return [(target, drawing.to(suffix, plotter, paper))]
 
 
-def _summary(source: str, target: str, drawing: Drawing | DrawingSet, size: int, seconds: float) -> str:
-    pictures = f"{len(drawing)} pictures, " if isinstance(drawing, DrawingSet) else ""
-    return (
-        f"{source} -> {target}: {pictures}{drawing.atoms_read} atoms read, {drawing.atoms_drawn} drawn, "
-        f"{drawing.visible} visible, {drawing.arcs} arcs, {size} bytes, {seconds:.2f} s"
-    )
+def _tell(quiet: bool) -> Callable[[Drawn], None]:
+    """Return what tells of a drawing in a line, or nothing."""
+
+    def tell(one: Drawn) -> None:
+        pictures = "" if one.pictures is None else f"{one.pictures} pictures, "
+        counts = f"{one.atoms} atoms read, {one.drawn} drawn, {one.visible} visible, {one.arcs} arcs"
+        if not quiet:
+            say(f"{one.file} -> {one.output}: {pictures}{counts}, {one.bytes} bytes, {one.seconds:.2f} s")
+
+    return tell
 
 
-def _summary_as_data(
-    source: str, target: str, drawing: Drawing | DrawingSet, size: int, seconds: float
-) -> dict[str, Any]:
-    return {
-        "file": source, "output": target, "atoms": drawing.atoms_read, "drawn": drawing.atoms_drawn,
-        "visible": drawing.visible, "arcs": drawing.arcs, "bytes": size, "seconds": round(seconds, 3),
-    }  # fmt: skip
+def _tell_json(one: Drawn) -> None:
+    told = one._asdict() | {"seconds": round(one.seconds, 3)}
+    tell_json({name: value for name, value in told.items() if name != "pictures"})
 
 
 def suffix_of(output: str | None, to: str | None) -> str:

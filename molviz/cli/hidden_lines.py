@@ -86,7 +86,7 @@ def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
     elif options["as_json"]:
         raise click.UsageError("--json tells the statistics of discs; expected --as discs, --random or --text")
     else:
-        run_drawings(inputs, options)
+        run_drawings(inputs, {"jobs": 1, "dask": None} | options)
 
 
 def _refuse_solid(options: dict[str, Any]) -> None:
@@ -106,7 +106,7 @@ def _molecules_as_discs(inputs: tuple[str, ...], options: dict[str, Any]) -> Non
         target = target_of(source, output, suffix) if output else None
         _discs(target, partial(_molecule, source, wanted, eye, options), options)
 
-    for_each(inputs, one)
+    for_each(inputs, one, lambda _: None, quiet=options["quiet"])
 
 
 def _discs(target: str | None, scene_of: Callable[[], HiddenDiscs], options: dict[str, Any]) -> None:

@@ -1,13 +1,15 @@
 """``molviz info``: what was read."""
 
+from dataclasses import dataclass
 from typing import Any
 
 import click
 
-from molviz.cli.batch import for_each
-from molviz.cli.options import input_options, load_and_warn
+from molviz.cli.batch import for_each, where_from
+from molviz.cli.options import batch_options, input_options, load_and_warn
 from molviz.cli.telling import tell_json, visible
 from molviz.pipeline.info import info
+from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.values import input_options_from
 
 
@@ -15,7 +17,8 @@ from molviz.pipeline.values import input_options_from
 @click.argument("inputs", nargs=-1, required=True, metavar="INPUT...")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on standard output.")
 @input_options
-def info_command(inputs: tuple[str, ...], as_json: bool, **options: Any) -> None:
+@batch_options
+def info_command(inputs: tuple[str, ...], as_json: bool, quiet: bool, **options: Any) -> None:
     """Tell what was read, and whether the hard sphere model holds.
 
     k is the ratio of the largest to the smallest radius, rho the least distance of two centres in units of the
@@ -28,17 +31,29 @@ def info_command(inputs: tuple[str, ...], as_json: bool, **options: Any) -> None
     wanted = input_options_from(options)
     results: list[dict[str, Any]] = []
 
-    def one(source: str) -> None:
-        told = [info(loaded) for loaded in load_and_warn(source, wanted, options["quiet"], options["strict"])]
+    def tell(told: list[dict[str, Any]]) -> None:
         results.extend(told)
         if not as_json:
             click.echo("\n\n".join(map(_as_text, told)))
 
     try:
-        for_each(inputs, one)
+        for_each(inputs, InfoTask(wanted, quiet, options["strict"]), tell, where_from(options), quiet)
     finally:
         if as_json:
             tell_json({"results": results})
+
+
+@dataclass(frozen=True)
+class InfoTask:
+    """What is to be done for each input; other processes can do it."""
+
+    wanted: InputOptions
+    quiet: bool
+    strict: bool
+
+    def __call__(self, source: str) -> list[dict[str, Any]]:
+        """Return what there is to tell of the models of one input."""
+        return [info(loaded) for loaded in load_and_warn(source, self.wanted, self.quiet, self.strict)]
 
 
 def _as_text(result: dict[str, Any]) -> str:

@@ -25,6 +25,7 @@ COMMANDS = {  # name → module:object, imported when first used
     "info": "molviz.cli.info:info_command",
     "styles": "molviz.cli.styles:styles_command",
     "radii": "molviz.cli.radii:radii_command",
+    "help": "molviz.cli.help:help_command",
 }
 
 

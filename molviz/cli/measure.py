@@ -1,20 +1,19 @@
 """``molviz measure``: options become values, measurements become a table, CSV or JSON."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import click
 
-from molviz.cli.batch import for_each
-from molviz.cli.options import input_options, load_and_warn
-from molviz.cli.progress import Progress
+from molviz.cli.batch import for_each, where_from
+from molviz.cli.options import batch_options, input_options, load_and_warn
 from molviz.cli.telling import tell_csv, tell_json, visible
 from molviz.model.radii import TABLES
 from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.measure import PER, Measurement, Part, measurement
-from molviz.pipeline.outputs import stem_of
 from molviz.pipeline.values import input_options_from
+from molviz.rounding import SUM_DIGITS, significant
 
 Row = dict[str, Any]
 
@@ -25,6 +24,7 @@ Row = dict[str, Any]
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on standard output.")
 @click.option("--csv", "as_csv", is_flag=True, help="Comma-separated values, to the last digit.")
 @input_options
+@batch_options
 def measure_command(
     inputs: tuple[str, ...], per: str | None, as_json: bool, as_csv: bool, quiet: bool, strict: bool, **options: Any
 ) -> None:
@@ -42,20 +42,25 @@ def measure_command(
         raise click.UsageError("--json and --csv exclude each other")
     wanted = input_options_from(options)
     measured: list[Measurement] = []
-
-    progress = Progress(2 * len(inputs))
-
-    def one(source: str) -> None:
-        progress(f"reading {stem_of(source)}")
-        models = load_and_warn(source, replace(wanted, select=None), quiet, strict)
-        progress(f"measuring {stem_of(source)}")
-        measured.extend(measurement(loaded, wanted.select, per) for loaded in models)
-
     try:
-        for_each(inputs, one)
+        for_each(inputs, MeasureTask(wanted, per, quiet, strict), measured.extend, where_from(options), quiet)
     finally:
-        progress.close()
         _tell(measured, wanted, per, as_json, as_csv)
+
+
+@dataclass(frozen=True)
+class MeasureTask:
+    """What is to be done for each input; other processes can do it."""
+
+    wanted: InputOptions
+    per: str | None
+    quiet: bool
+    strict: bool
+
+    def __call__(self, source: str) -> list[Measurement]:
+        """Measure one input: its models, of which ``wanted.select`` may be a part that others bury."""
+        models = load_and_warn(source, replace(self.wanted, select=None), self.quiet, self.strict)
+        return [measurement(loaded, self.wanted.select, self.per) for loaded in models]
 
 
 def _tell(measured: list[Measurement], wanted: InputOptions, per: str | None, as_json: bool, as_csv: bool) -> None:
@@ -78,7 +83,7 @@ def _part(part: Part) -> Row:
 
 
 def _split(area: float, exposed: float | None) -> Row:
-    return {} if exposed is None else {"exposed": exposed, "buried": area - exposed}
+    return {} if exposed is None else {"exposed": exposed, "buried": significant(area - exposed, SUM_DIGITS)}
 
 
 def _rows(measured: Iterable[Measurement], wanted: InputOptions, per: str | None) -> Iterator[Row]:

@@ -14,6 +14,7 @@ from molviz.pipeline.inputs import FORMATS, InputOptions, Loaded, load
 from molviz.pipeline.values import (
     CHOICES,
     parse_background,
+    parse_distance,
     parse_margin,
     parse_not_negative,
     parse_positive,
@@ -44,6 +45,7 @@ LENGTH = Parsed("length", parse_width)
 MARGIN = Parsed("length", parse_margin)
 ROTATION = Parsed("axis,degrees", parse_rotation)
 BACKGROUND = Parsed("color", parse_background)
+DISTANCE = Parsed("number", parse_distance)
 POSITIVE = Parsed("number", parse_positive)
 NOT_NEGATIVE = Parsed("number", parse_not_negative)
 USUAL = {name: parameter.default for name, parameter in signature(door.draw).parameters.items()}
@@ -86,7 +88,7 @@ def input_options_with(probe: Decorator) -> Decorator:
             help="Number; A-B or all.",
         ),
         shared("assembly", metavar="ID", help="Biological assembly, from the file's own operators."),
-        shared("select", metavar="EXPR", help="Keep part of it, e.g. 'chain A and not water'."),
+        shared("select", metavar="EXPR", help="Keep part of it: 'chain A and resi 10-20' (molviz help selections)."),
         shared("no_water", help="Leave out water."),
         shared("no_hydrogens", help="Leave out hydrogen and deuterium."),
         shared("chain", metavar="A,B", help="Keep these chains."),
@@ -101,6 +103,12 @@ def input_options_with(probe: Decorator) -> Decorator:
 
 
 input_options = input_options_with(shared("probe", type=NOT_NEGATIVE, metavar="R", help="Add to all radii, in Å."))
+batch_options = applied(
+    click.option(
+        "-j", "--jobs", type=click.IntRange(0), default=1, metavar="N", help="So many inputs at once; 0: all cores."
+    ),
+    click.option("--dask", metavar="ADDRESS", help="Let a Dask cluster do the work (pip install 'molviz[dask]')."),
+)
 eye_options = applied(
     shared(
         "orient",
@@ -108,7 +116,7 @@ eye_options = applied(
         help="Starting orientation: principal axes, widest side across, or as in the file.",
     ),
     shared("rotate", type=ROTATION, multiple=True, help="Then turn about an axis of the page; repeatable."),
-    shared("perspective", type=POSITIVE, metavar="DISTANCE", help="Central projection; eye's distance in Å."),
+    shared("perspective", type=DISTANCE, metavar="DISTANCE", help="Central projection; eye's distance in Å."),
 )
 page_options = applied(
     shared("width", type=LENGTH, help="Width of the drawing, e.g. 8cm."),

@@ -11,7 +11,7 @@ PATIENCE = 2.0  # seconds before anything shows
 
 
 class Progress:
-    """Told the name of each stage as it begins; shows how many of ``stages`` are done once work lasts."""
+    """Told the name of each stage as it begins; shows how many of ``stages`` are done once work lasts, if any."""
 
     def __init__(self, stages: int) -> None:
         self.stages, self.done, self.began = stages, 0, time.monotonic()
@@ -19,7 +19,7 @@ class Progress:
 
     def __call__(self, stage: str) -> None:
         """Note that a stage begins."""
-        if sys.stderr is not None and sys.stderr.isatty() and time.monotonic() - self.began > PATIENCE:
+        if self.stages and sys.stderr is not None and sys.stderr.isatty() and time.monotonic() - self.began > PATIENCE:
             filled = 30 * self.done // self.stages
             click.echo(f"\r[{'#' * filled}{'-' * (30 - filled)}] {visible(stage)[:24]:<24}", err=True, nl=False)
             self.shown = True

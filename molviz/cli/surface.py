@@ -1,18 +1,16 @@
 """``molviz surface``: options become values, surfaces become a table, CSV or JSON."""
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import click
 
-from molviz.cli.batch import for_each
-from molviz.cli.options import NOT_NEGATIVE, input_options_with, load_and_warn, shared
-from molviz.cli.progress import Progress
+from molviz.cli.batch import for_each, where_from
+from molviz.cli.options import NOT_NEGATIVE, batch_options, input_options_with, load_and_warn, shared
 from molviz.cli.telling import tell_csv, tell_json, visible
 from molviz.model.radii import TABLES
-from molviz.pipeline.inputs import WATER_RADIUS
-from molviz.pipeline.outputs import stem_of
+from molviz.pipeline.inputs import WATER_RADIUS, InputOptions
 from molviz.pipeline.surface import PER, Component, Surface, atom_rows, surface_as_data, surface_of
 from molviz.pipeline.values import input_options_from
 
@@ -31,6 +29,7 @@ probe_option = click.option(
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on standard output.")
 @click.option("--csv", "as_csv", is_flag=True, help="Comma-separated values, to the last digit.")
 @input_options_with(probe_option)
+@batch_options
 def surface_command(inputs: tuple[str, ...], per: str, as_json: bool, as_csv: bool, **options: Any) -> None:
     """Tell components, cavities and faces of the boundary, and the exact smooth surface.
 
@@ -49,20 +48,27 @@ def surface_command(inputs: tuple[str, ...], per: str, as_json: bool, as_csv: bo
         raise click.UsageError("--json and --csv exclude each other")
     wanted = input_options_from(options)
     surfaces: list[Surface] = []
-    progress = Progress(2 * len(inputs))
-
-    def one(source: str) -> None:
-        progress(f"reading {stem_of(source)}")
-        models = load_and_warn(source, replace(wanted, probe=0.0), options["quiet"], options["strict"])
-        progress(f"surface of {stem_of(source)}")
-        for loaded in models:
-            surfaces.append(surface_of(loaded, wanted.probe, options["outer_only"], options["check"]))
-
+    task = SurfaceTask(wanted, options["outer_only"], options["check"], options["quiet"], options["strict"])
     try:
-        for_each(inputs, one)
+        for_each(inputs, task, surfaces.extend, where_from(options), options["quiet"])
     finally:
-        progress.close()
         _tell(surfaces, wanted.radii, per, as_json, as_csv)
+
+
+@dataclass(frozen=True)
+class SurfaceTask:
+    """What is to be done for each input; other processes can do it."""
+
+    wanted: InputOptions
+    outer_only: bool
+    check: bool
+    quiet: bool
+    strict: bool
+
+    def __call__(self, source: str) -> list[Surface]:
+        """Return the surface of each model of one input; the probe enlarges no ball before."""
+        models = load_and_warn(source, replace(self.wanted, probe=0.0), self.quiet, self.strict)
+        return [surface_of(loaded, self.wanted.probe, self.outer_only, self.check) for loaded in models]
 
 
 def _tell(surfaces: list[Surface], radii: str, per: str, as_json: bool, as_csv: bool) -> None:

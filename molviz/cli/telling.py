@@ -3,10 +3,15 @@
 import csv
 import json
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 import click
+
+_KEPT: ContextVar[list[str] | None] = ContextVar("kept", default=None)  # what is said, where it is not written
+
 
 
 def visible(text: str) -> str:
@@ -23,8 +28,23 @@ def _escaped(letter: str) -> str:
 
 
 def say(*lines: str) -> None:
-    """Write lines to standard error."""
-    click.echo("\n".join(map(visible, lines)), err=True)
+    """Write lines to standard error, or keep them while they are ``collected``."""
+    kept = _KEPT.get()
+    if kept is None:
+        click.echo("\n".join(map(visible, lines)), err=True)
+    else:
+        kept.extend(lines)
+
+
+@contextmanager
+def collected() -> Iterator[list[str]]:
+    """Keep what is said meanwhile by this thread in a list."""
+    lines: list[str] = []
+    token = _KEPT.set(lines)
+    try:
+        yield lines
+    finally:
+        _KEPT.reset(token)
 
 
 def tell_json(result: dict[str, Any]) -> None:

@@ -10,6 +10,7 @@ one circle (``COINCIDE``): they belong to a pencil, with their centres in a line
 boundary, so ball k covers the crease of i and j unless its centre lies between theirs.
 """
 
+import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
@@ -24,9 +25,10 @@ from molviz.geometry.intervals import TURN, Intervals, above, gaps
 from molviz.geometry.rows import blocks, expand, offsets
 from molviz.geometry.tolerances import COINCIDE, TOUCH
 from molviz.model.spheres import Spheres
+from molviz.vectors import length
 
 BLOCK_ENTRIES = 1 << 17  # entries (sphere, cap, cap) at a time: their temporaries stay in cache
-THREADS = 2
+THREADS = 1 if os.environ.get("OMP_NUM_THREADS") == "1" else 2  # one where many processes share the cores
 
 
 class Boundary(NamedTuple):
@@ -70,7 +72,7 @@ def _crossing(spheres: Spheres, near: Neighbours) -> tuple[Neighbours, Bools]:
 
 def _distances(spheres: Spheres, one: Ints, other: Ints) -> tuple[Floats, Floats, Floats]:
     """Distances of pairs of centres, and the radii of both."""
-    distance = np.linalg.norm(spheres.center[other] - spheres.center[one], axis=1)
+    distance = length(spheres.center[other] - spheres.center[one])
     return np.asarray(distance), spheres.radius[one], spheres.radius[other]
 
 
@@ -211,7 +213,7 @@ def _on_sphere(spheres: Spheres, first: Ints, second: Ints, ball: Ints) -> Bools
     distance, own, other = _distances(spheres, first, ball)
     toward = spheres.center[ball] - spheres.center[first]
     deep = np.sum(axis * toward, axis=1)
-    aside = np.linalg.norm(toward - axis * deep[:, None], axis=1) * np.sqrt(np.maximum(own**2 - along**2, 0.0))
+    aside = length(toward - axis * deep[:, None]) * np.sqrt(np.maximum(own**2 - along**2, 0.0))
     rest = (np.sum(toward**2, axis=1) + (own - other) * (own + other)) / 2 - deep * along
     small = COINCIDE * own * distance
     return np.asarray((np.abs(rest) < small) & (aside < small))

@@ -6,6 +6,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.model.spheres import Spheres
+from molviz.vectors import length
 
 
 class Circles(NamedTuple):
@@ -71,7 +72,7 @@ def circles_about(first: Ints, second: Ints, center: Floats, axis: Floats, radiu
 def radical_planes(spheres: Spheres, first: Ints, second: Ints) -> tuple[Floats, Floats]:
     """Return the axis (m, 3) from ci to cj and ``t = (d² + ri² − rj²) / 2d``, how far along it the spheres meet."""
     between = spheres.center[second] - spheres.center[first]
-    distance = np.linalg.norm(between, axis=1)
+    distance = length(between)
     own, other = spheres.radius[first], spheres.radius[second]
     return between / distance[:, None], (distance + (own - other) * (own + other) / distance) / 2
 
@@ -81,7 +82,7 @@ def creases(spheres: Spheres, first: Ints, second: Ints) -> tuple[Circles, Ints]
 
     Their radius is ``√(ri² − t²)``. Pairs that are nested or concentric have no circle.
     """
-    distance = np.linalg.norm(spheres.center[second] - spheres.center[first], axis=1)
+    distance = length(spheres.center[second] - spheres.center[first])
     own, other = spheres.radius[first], spheres.radius[second]
     rows = np.flatnonzero((distance > np.abs(own - other)) & (distance < own + other))
     axis, along = radical_planes(spheres, first[rows], second[rows])

@@ -1,6 +1,6 @@
 """A molecule: named atoms in space, as a file or an object of another library described them."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any
 
@@ -11,6 +11,7 @@ from molviz.errors import InputError
 from molviz.model.bonds import NO_BONDS, Bonds
 
 _NUMBERS = {"position": (3,), "bfactor": (), "radius": ()}  # columns of numbers, and the shape of a row
+_TYPES = {"row": np.int64, "hetero": bool}  # of columns that are neither numbers with a fraction nor texts
 _WIDEST = 8  # bytes of a number that float64 holds
 
 
@@ -22,8 +23,9 @@ class Molecule:
     are empty where the format has no residues. ``element`` is the symbol as usually written (``"Fe"``), ``"X"``
     where unknown; D is kept apart from H. ``radius`` is the file's own, NaN where it has none; ``molviz.model.radii``
     says when it is used. ``water`` is not stored: see ``molviz.model.selection``. ``row`` is the atom's row in the
-    model it was read from. ``stated_bonds`` are those that the file states; ``bonds`` and ``bond_orders`` all there
-    are, by file, residues and distances.
+    model it was read from. ``segment`` and ``hetero`` (HETATM) are empty and False where the format has no such thing.
+    ``stated_bonds`` are those that the file states; ``bonds`` and ``bond_orders`` all there are, by file, residues and
+    distances.
 
     Lists are taken as arrays. Raises InputError, naming the column, for lengths that differ, positions that are not
     finite, radii that are not positive and bonds to rows that are not there.
@@ -40,8 +42,13 @@ class Molecule:
     radius: Floats  # (n,) ångström or NaN
     row: Ints  # (n,)
     stated_bonds: Bonds = NO_BONDS
+    segment: Strings = field(default_factory=lambda: np.empty(0, dtype=str))  # (n,), or none for empty texts
+    hetero: Bools = field(default_factory=lambda: np.empty(0, dtype=bool))  # (n,), or none for False
 
     def __post_init__(self) -> None:
+        for name, usual in (("segment", ""), ("hetero", False)):
+            if not len(getattr(self, name)):
+                object.__setattr__(self, name, np.full(len(self.position), usual))
         for name in column_names():
             object.__setattr__(self, name, _column(name, getattr(self, name)))
         for name in column_names():
@@ -125,7 +132,7 @@ def _column(name: str, values: Any) -> Any:
     array = np.asarray(values)
     if array.ndim != 1:
         raise InputError(f"{name}: shape {array.shape}; expected (n,)")
-    return array.astype(np.int64 if name == "row" else str, copy=False)
+    return array.astype(_TYPES.get(name, str), copy=False)
 
 
 def _refuse(name: str, wrong: Bools, what: str) -> None:

@@ -466,7 +466,7 @@ def furnished(
     line = max(line if options.outline is None else options.outline, options.crease or 0.0)
     paper = options.background or WHITE
     color = style.lines.color if lightness(paper) > DARK_PAGE else LIGHT_TEXT
-    furniture = Furniture(options.title, options.scale_bar, legend, labels, discs, color, paper)
+    furniture = Furniture(options.title, options.scale_bar, options.unit, legend, labels, discs, color, paper)
     return furnish(options.page, subject.low, subject.high, line / 2, furniture, subject.alike.free)
 
 

@@ -5,6 +5,7 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.curves import Paths, PlaneArcs, straight_pieces
 from molviz.geometry.rows import expand
+from molviz.vectors import transformed
 
 LEVELS = 6  # of tone, each with its own distance of lines
 WHITE = 96.0  # L* from which on nothing is hatched
@@ -32,13 +33,14 @@ def hatched(paths: Paths, distance: float, degrees: float) -> Paths:
     """
     angle = np.radians(degrees)
     turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
-    arcs = paths.arcs._replace(c=paths.arcs.c @ turn.T, u=paths.arcs.u @ turn.T, v=paths.arcs.v @ turn.T)
+    c, u, v = (transformed(vectors, turn) for vectors in (paths.arcs.c, paths.arcs.u, paths.arcs.v))
+    arcs = paths.arcs._replace(c=c, u=u, v=v)
     line, x = _crossings(_monotone(arcs), distance)
     order = np.lexsort((x, line))
     line, x = line[order], x[order]
     inside = _first_of_pairs(line)
     y = (line[inside] + OFFSET) * distance
-    start, end = (np.column_stack([x[rows], y]) @ turn for rows in (inside, inside + 1))
+    start, end = (transformed(np.column_stack([x[rows], y]), turn.T) for rows in (inside, inside + 1))
     pieces = straight_pieces(start, end)
     count = len(inside)
     return Paths(pieces, np.arange(count + 1), np.array([0, count]))

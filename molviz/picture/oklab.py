@@ -12,6 +12,7 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.picture.picture import Color
+from molviz.vectors import transformed
 
 Colors: TypeAlias = Color | Sequence[Color] | Ints
 
@@ -29,10 +30,19 @@ _OPPONENTS = np.array(  # rows lightness, green to red, blue to yellow of the co
         [0.0259040371, 0.7827717662, -0.8086757660],
     ]
 )
-_FROM_CONES, _FROM_OPPONENTS = np.linalg.inv(_CONES), np.linalg.inv(_OPPONENTS)
 _GREY = 1e-3  # chroma: far below one step of 8 bits
 _HALVINGS = 10  # of an interval of 1: finer than 8 bits
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # Y of linear sRGB
+
+
+def _inverse(matrix: Floats) -> Floats:
+    """The inverse (3, 3): cross products of rows over the determinant, the same to the last bit on every machine."""
+    columns = [np.cross(matrix[(k + 1) % 3], matrix[(k + 2) % 3]) for k in range(3)]
+    inverse: Floats = np.column_stack(columns) / np.sum(matrix[0] * columns[0])
+    return inverse
+
+
+_FROM_CONES, _FROM_OPPONENTS = _inverse(_CONES), _inverse(_OPPONENTS)
 
 
 def linear_light(color: Colors) -> Floats:
@@ -51,13 +61,13 @@ def color_of_light(light: Floats) -> Ints:
 
 def to_oklab(color: Colors) -> Floats:
     """Return OKLab (..., 3) of colours: lightness 0 to 1, green to red, blue to yellow."""
-    lab: Floats = np.cbrt(linear_light(color) @ _CONES.T) @ _OPPONENTS.T
+    lab: Floats = transformed(np.cbrt(transformed(linear_light(color), _CONES)), _OPPONENTS)
     return lab
 
 
 def from_oklab(lab: Floats) -> Ints:
     """Return the colours (..., 3) of OKLab, the nearest of each channel where the screen has none such."""
-    return color_of_light((lab @ _FROM_OPPONENTS.T) ** 3 @ _FROM_CONES.T)
+    return color_of_light(transformed(transformed(lab, _FROM_OPPONENTS) ** 3, _FROM_CONES))
 
 
 def mix(one: Colors, other: Colors, share: float | Floats) -> Ints:
@@ -68,7 +78,7 @@ def mix(one: Colors, other: Colors, share: float | Floats) -> Ints:
 
 def lightness(color: Colors) -> Floats:
     """Return CIE L* (...), 0 for black to 100 for white: how light a grey print of the colours is."""
-    luminance = linear_light(color) @ _LUMINANCE
+    luminance = transformed(linear_light(color), _LUMINANCE[None])[..., 0]
     low = luminance <= (6 / 29) ** 3  # CIE 15: the cube root's straight start
     result: Floats = np.where(low, luminance * (29 / 3) ** 3, 116 * np.cbrt(luminance) - 16)
     return result

@@ -41,7 +41,10 @@ class Labelled:
 
 @dataclass(frozen=True)
 class DrawOptions:
-    """How the user wants a picture; widths in points, None for what is usual or the style's."""
+    """How the user wants a picture; widths in points, None for what is usual or the style's.
+
+    Lengths of the drawing, and those that styles state in ångström, are in lengths of ``unit`` ångström.
+    """
 
     palette: Palette
     style: Style | None = None
@@ -55,6 +58,7 @@ class DrawOptions:
     legend: bool = False
     title: str = ""
     scale_bar: float | None = None
+    unit: float = 1.0  # ångström
 
     @property
     def is_mask(self) -> bool:
@@ -73,6 +77,11 @@ class DrawOptions:
         if scheme == "entity" and not has_polymer:
             scheme = "element"
         return replace(self, style=style, color_by=scheme)
+
+    def in_unit(self, unit: float) -> "DrawOptions":
+        """Return the options for a drawing in lengths of ``unit`` ångström, from those for one in ångström."""
+        page = replace(self.page, scale=self.page.scale and self.page.scale * unit)
+        return replace(self, page=page, scale_bar=self.scale_bar and self.scale_bar / unit, unit=unit)
 
     def chosen_style(self) -> Style:
         """Return the style, once settled."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from molviz.arrays import Floats
 from molviz.curves import Paths
-from molviz.vectors import dot
+from molviz.vectors import dot, transformed
 
 SPREAD = 0.24  # points: the usual stroke in a fill's own colour that closes the hairline to its neighbour
 
@@ -54,10 +54,12 @@ def offsets_at(gradient: Gradient, points: Floats) -> Floats:
     """
     if isinstance(gradient, LinearGradient):
         along = np.subtract(gradient.end, gradient.start)
-        return np.asarray((points - gradient.start) @ along / (along @ along))
+        return np.asarray(transformed(points - gradient.start, along[None])[:, 0] / np.sum(along**2))
     focus = np.array(gradient.focus)
-    d, left = points - focus, gradient.radius**2 - focus @ focus
-    product = d @ focus
+    d, left = points - focus, gradient.radius**2 - np.sum(focus**2)
+    if left <= 0:  # a ball of no size at the digits that are written: all of it is edge
+        return np.ones(len(points))
+    product = transformed(d, focus[None])[:, 0]
     return np.asarray((product + np.sqrt(product**2 + left * dot(d, d))) / left)
 
 

@@ -24,6 +24,7 @@ from molviz.picture.style import load_style
 from molviz.pipeline.inputs import WATER_RADIUS, Loaded, refuse_unresolved
 from molviz.pipeline.outputs import encoded, refuse_inputs, save
 from molviz.pipeline.solids import SolidOptions, shown, solid_options_from, solids_for
+from molviz.pipeline.units import in_unit, solids_in_unit, unit_of, view_in_unit
 from molviz.pipeline.values import (
     Options,
     chosen,
@@ -38,6 +39,7 @@ from molviz.pipeline.values import (
 )
 from molviz.pipeline.views import ViewOptions, view_of
 from molviz.visibility.checks import check_map
+from molviz.visibility.eye import refuse_eye_among
 from molviz.visibility.lines import slivers
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.map_json import map_as_data
@@ -77,7 +79,7 @@ class Drawing:
     arcs: int
     _loaded: Loaded
     _options: DrawOptions  # settled
-    _view: View
+    _view: View  # in lengths of the options' unit, as what is seen
     _seen: VisibilityMap | Pieces
     _solids: BallsAndSticks
     subject: Subject  # the molecule, and what there is to tell of it
@@ -177,7 +179,7 @@ class Drawing:
 
     def _map_as_json(self) -> bytes:
         assert isinstance(self._seen, VisibilityMap)  # painter's pieces were refused
-        data = map_as_data(self._seen, self._loaded.molecule.row[self.subject.atom], self._view)
+        data = map_as_data(self._seen, self._loaded.molecule.row[self.subject.atom], self._view, self._options.unit)
         return json.dumps(data, separators=(",", ":")).encode() + b"\n"
 
 
@@ -206,11 +208,11 @@ def draw_request_from(options: Options) -> DrawRequest:
     return DrawRequest(look, colors, labels, solid_options_from(options))
 
 
-def labelled_of(molecule: Molecule, text: str) -> Labelled:
+def labelled_of(molecule: Molecule, text: str, model: int = 1) -> Labelled:
     """Return the atoms that ``SELECTION[=TEXT]`` means, split at the first = that leaves a valid selection."""
     for place in [*(k for k, letter in enumerate(text) if letter == "="), len(text)]:
         try:
-            return Labelled(select(molecule, text[:place]), text[place + 1 :], text[:place])
+            return Labelled(select(molecule, text[:place], model), text[place + 1 :], text[:place])
         except InputError:
             if place == len(text):
                 raise
@@ -230,24 +232,39 @@ def drawing_of(
 
 
 def drawings_of(
-    loaded: Loaded, request: DrawRequest, views: Sequence[View], method: str = "visible", check: bool = False
+    loaded: Loaded,
+    request: DrawRequest,
+    views: Sequence[View],
+    method: str = "visible",
+    check: bool = False,
+    unit: float | None = None,
 ) -> list[Drawing]:
-    """Return one model drawn from each view; what no view changes is computed once. As ``drawing_of`` otherwise."""
+    """Return one model drawn from each view; what no view changes is computed once. As ``drawing_of`` otherwise.
+
+    ``unit`` in ångström is that of the set which the drawings belong to, None for the model's own.
+    """
     loaded, representation = shown(loaded, request.solids)
     solids = solids_for(loaded, representation, request.solids)
     refuse_unresolved(loaded._replace(spheres=solids.balls))
+    for view in views:
+        refuse_eye_among(solids.balls, view)
+    unit = unit_of(loaded) if unit is None else unit
+    scaled, views = in_unit(loaded, unit), [view_in_unit(view, unit) for view in views]
+    solids = solids_in_unit(solids, unit)
     scene = Scene(solids.balls, views[0] if len(views) == 1 else None, solids.sticks)
-    options = request.options.settled(entities_of(loaded.molecule), method == "painter")
-    subject = subject_of(loaded, request, options)
+    options = request.options.settled(entities_of(scaled.molecule), method == "painter").in_unit(unit)
+    subject = replace(subject_of(loaded, request, options), molecule=scaled.molecule)
     return [_seen_from(view, scene, solids, loaded, subject, options, method, check) for view in views]
 
 
 def subject_of(loaded: Loaded, request: DrawRequest, options: DrawOptions) -> Subject:
     """Return what there is to tell of a model, before anything is known of views; ``options`` are settled."""
     molecule, nowhere = loaded.molecule, np.zeros(2)
-    values = color_values(loaded, str(options.color_by))
-    painted = tuple(Painted(select(molecule, selection), color, selection) for selection, color in request.colors)
-    labelled = tuple(labelled_of(molecule, label) for label in request.labels)
+    values = color_values(loaded, str(options.color_by), options.unit)
+    painted = tuple(
+        Painted(select(molecule, selection, loaded.model), color, selection) for selection, color in request.colors
+    )
+    labelled = tuple(labelled_of(molecule, label, loaded.model) for label in request.labels)
     none = np.empty(0, dtype=np.int64)
     return Subject(molecule, none, nowhere, nowhere, values, painted, labelled, request.description)
 
@@ -278,14 +295,14 @@ def _seen_from(
     return Drawing(loaded.read, len(loaded.molecule), visible, arcs, loaded, options, view, seen, solids, subject)
 
 
-def color_values(loaded: Loaded, scheme: str) -> Floats:
+def color_values(loaded: Loaded, scheme: str, unit: float = 1.0) -> Floats:
     """Return what a continuous colour scheme shows of each atom (n,), NaN for other schemes.
 
     Exposure is the exact solvent-accessible area of the atom in Å² among the atoms drawn: the table's radii, whatever
-    those of the drawing, and a water of radius 1.4 Å.
+    those of the drawing, and a water of radius 1.4 Å (1.4 times the ``unit`` of a scene).
     """
     if scheme == "exposure":
-        return measure_spheres(loaded.bare.enlarged(1.0, WATER_RADIUS)).area
+        return measure_spheres(loaded.bare.enlarged(1.0, WATER_RADIUS * unit)).area
     return loaded.molecule.bfactor if scheme == "bfactor" else np.full(len(loaded.molecule), np.nan)
 
 

@@ -31,6 +31,7 @@ from molviz.picture.picture import Picture
 from molviz.pipeline.inputs import Loaded
 from molviz.pipeline.outputs import encoded
 from molviz.pipeline.views import ViewOptions, view_of
+from molviz.rounding import ANGLE_DIGITS, rounded, significant
 
 Statistics: TypeAlias = dict[str, int | float | dict[str, int]]
 
@@ -68,7 +69,7 @@ class HiddenDiscs:
         return {
             "n": count,
             "radius": float(self.spheres.radius.max()),
-            "depth": depth_complexity(self.spheres.radius, self.grid.square),
+            "depth": significant(depth_complexity(self.spheres.radius, self.grid.square)),
             "grid": self.grid.across,
             "cell_entries": self.work.cell_entries,
             "cells_blocked": self.work.cells_blocked,
@@ -78,7 +79,7 @@ class HiddenDiscs:
             "visible_in_arcs": {str(k): int(pieces[k]) for k in range(1, len(pieces))},
             "hidden": int(pieces[0]) - whole,
             "arcs": len(self.arcs.circle),
-            "length_circumferences": float(self.arcs.sweep.sum()) / (2.0 * math.pi),
+            "length_circumferences": significant(float(self.arcs.sweep.sum()) / (2.0 * math.pi)),
             "seconds": self.seconds,
         }
 
@@ -159,7 +160,8 @@ def to_json(scene: HiddenDiscs) -> bytes:
     Lists of finite numbers print in Python as in JSON, several times faster than the encoder writes them.
     """
     circles = np.column_stack([scene.spheres.center, scene.spheres.radius]).tolist()
-    columns = (column.tolist() for column in (scene.arcs.circle, scene.arcs.start, scene.arcs.sweep))
+    angles = (rounded(column, ANGLE_DIGITS) for column in (scene.arcs.start, scene.arcs.sweep))
+    columns = (column.tolist() for column in (scene.arcs.circle, *angles))
     arcs = [list(row) for row in zip(*columns, strict=True)]
     statistics = scene.statistics() | {"seconds": None}
     return f'{{"circles": {circles}, "arcs": {arcs}, "statistics": {json.dumps(statistics)}}}\n'.encode("ascii")

@@ -9,6 +9,7 @@ from molviz.geometry.components import components
 from molviz.geometry.grid import intersecting_pairs, neighbours
 from molviz.model.spheres import Spheres
 from molviz.pipeline.inputs import Loaded
+from molviz.vectors import length
 
 
 def info(loaded: Loaded) -> dict[str, Any]:
@@ -41,7 +42,7 @@ def closest_ratio(spheres: Spheres) -> float | None:
     largest, reach = float(spheres.radius.max()), float(spheres.radius.max())
     while len(spheres.radius) > 1:
         first, second = intersecting_pairs(Spheres(spheres.center, np.full(len(spheres.radius), reach)))
-        gap: Floats = np.linalg.norm(spheres.center[second] - spheres.center[first], axis=1)
+        gap: Floats = length(spheres.center[second] - spheres.center[first])
         larger = np.maximum(spheres.radius[first], spheres.radius[second])
         ratio = float(np.min(gap / larger, initial=np.inf))
         if ratio <= 2 * reach / largest:

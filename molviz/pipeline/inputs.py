@@ -7,12 +7,12 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.errors import InputError, OptionError
+from molviz.errors import InputError, OptionError, listed
 from molviz.geometry.boundary_graph import boundary_graph
 from molviz.geometry.shells import lining, shells_of
 from molviz.model.elements import UNKNOWN
 from molviz.model.molecule import Molecule
-from molviz.model.radii import DEFAULT, OWN
+from molviz.model.radii import DEFAULT, OWN, is_known
 from molviz.model.selection import is_hydrogen, is_water, select
 from molviz.model.spheres import Spheres, spheres_of
 from molviz.readers import FORMATS as READERS
@@ -23,6 +23,7 @@ SHORTEST, LONGEST = 1e-60, 1e60  # ångström: fourth powers, and quotients of t
 RESOLVED = 64  # steps of the rounding in a radius, at least, for a ball to be told from its neighbours
 WATER_RADIUS = 1.4  # ångström, of a probe: Lee & Richards 1971
 FORMATS = tuple(READERS)
+DUMMIES = ("X", "XX", "DU", "LP", "Q", "*")  # symbols of no element
 WITH_CHARGES = ("pqr",)  # whose radii are a force field's, for electrostatics: used where they are asked for
 
 
@@ -100,9 +101,10 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
     if wanted.assembly is not None:
         whole = reading.assembly(wanted.assembly, number - 1)
     _refuse_unheld("a coordinate", np.abs(whole.position).max(axis=1), 0.0, reading.source)
-    molecule = _named(_kept(whole, wanted, reading.source), reading.source)
+    molecule = _named(_kept(whole, wanted, reading.source, number), reading.source)
     if reading.format in WITH_CHARGES and wanted.radii != OWN:
         molecule = replace(molecule, radius=np.where(molecule.element == UNKNOWN, molecule.radius, np.nan))
+    _refuse_beads(whole, molecule, wanted.radii, reading.source)
     bare, warnings = spheres_of(molecule, wanted.radii)
     _refuse_unheld("a radius", bare.radius, SHORTEST, reading.source)
     if wanted.cavities is not None:
@@ -115,6 +117,19 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
     return Loaded(
         reading.source, reading.format, number, count, len(whole), molecule, spheres, bare, reading.warnings + told
     )
+
+
+def _refuse_beads(whole: Molecule, molecule: Molecule, table: str, source: str) -> None:
+    """Raise InputError for a model of which no element is known, unless radii of its own or of the table are.
+
+    Atoms that are called dummies are known to have none.
+    """
+    known = np.any(whole.element != UNKNOWN) or np.any(np.isin(np.char.upper(whole.atom_name), DUMMIES))
+    if known or table == OWN or np.any(is_known(molecule, table)):
+        return
+    names = listed(list(dict.fromkeys(whole.atom_name.tolist())))
+    message = f"no atom's element is known, as in coarse-grained models; the names are {names}"
+    raise InputError(f"{message}; expected --radii FILE with [names] that gives their radii", source)
 
 
 def _refuse_unheld(what: str, size: Floats, least: float, source: str) -> None:
@@ -134,10 +149,10 @@ def refuse_unresolved(loaded: Loaded) -> None:
         raise InputError(f"{message}; expected nearer ones", loaded.source)
 
 
-def _kept(molecule: Molecule, wanted: InputOptions, source: str) -> Molecule:
+def _kept(molecule: Molecule, wanted: InputOptions, source: str, model: int) -> Molecule:
     keep: Bools = np.ones(len(molecule), dtype=bool)
     if wanted.select is not None:
-        keep &= select(molecule, wanted.select)
+        keep &= select(molecule, wanted.select, model)
     water = is_water(molecule)
     if wanted.water is False or (wanted.water is None and np.any(keep & ~water)):
         keep &= ~water
@@ -148,7 +163,7 @@ def _kept(molecule: Molecule, wanted: InputOptions, source: str) -> Molecule:
     if wanted.radii == OWN and not np.isnan(molecule.radius).all():
         keep &= ~np.isnan(molecule.radius)
     if not keep.any():
-        chains = ", ".join(dict.fromkeys(molecule.chain.tolist()))
+        chains = listed([name for name in dict.fromkeys(molecule.chain.tolist()) if name])
         raise InputError(f"no atoms are left by the selection; the chains are {chains or 'not named'}", source)
     return molecule if keep.all() else molecule.take(np.flatnonzero(keep))
 

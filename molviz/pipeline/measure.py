@@ -1,5 +1,6 @@
 """``molviz measure``: spheres → union boundary → area and volume → sums over atoms, residues or chains."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -11,6 +12,7 @@ from molviz.geometry.measure import measure_spheres
 from molviz.model.molecule import Molecule
 from molviz.model.selection import select
 from molviz.pipeline.inputs import Loaded
+from molviz.rounding import SUM_DIGITS, shares, significant, total
 
 PER = ("atom", "residue", "chain")
 
@@ -47,22 +49,23 @@ def measurement(loaded: Loaded, selection: str | None = None, per: str | None = 
     """
     chosen = _chosen(loaded, selection)
     alone = measure_spheres(loaded.spheres.take(chosen))
-    exposed = None if selection is None else measure_spheres(loaded.spheres).area[chosen]
+    area = shares(alone.area)
+    exposed = None if selection is None else shares(measure_spheres(loaded.spheres).area)[chosen]
     return Measurement(
         file=loaded.source,
         model=loaded.model,
         atoms=len(chosen),
-        area=float(alone.area.sum()),
-        volume=alone.volume,
-        exposed=None if exposed is None else float(exposed.sum()),
-        parts=() if per is None else _parts(loaded.molecule.take(chosen), per, alone.area, exposed),
+        area=total(area),
+        volume=significant(alone.volume),
+        exposed=None if exposed is None else total(exposed),
+        parts=() if per is None else _parts(loaded.molecule.take(chosen), per, area, exposed),
     )
 
 
 def _chosen(loaded: Loaded, selection: str | None) -> Ints:
     if selection is None:
         return np.arange(len(loaded.molecule))
-    chosen = np.flatnonzero(select(loaded.molecule, selection))
+    chosen = np.flatnonzero(select(loaded.molecule, selection, loaded.model))
     if len(chosen) == 0:
         raise InputError(f"selection {selection!r} means no atom; expected one at least", loaded.source)
     return chosen
@@ -75,9 +78,13 @@ def _parts(molecule: Molecule, per: str, area: Floats, exposed: Floats | None) -
     if per == "atom":
         names, first, group = labels, np.arange(len(labels)), np.arange(len(labels))
     order = np.argsort(first)
-    columns = [None if column is None else np.bincount(group, column)[order].tolist() for column in (area, exposed)]
-    alone, free = columns[0] or [], columns[1] or [None] * len(order)
+    alone = _told(np.bincount(group, area)[order].tolist())
+    free = [None] * len(order) if exposed is None else _told(np.bincount(group, exposed)[order].tolist())
     return tuple(Part(*row) for row in zip(names[order].tolist(), alone, free, strict=True))
+
+
+def _told(areas: Sequence[float]) -> list[float]:
+    return [significant(area, SUM_DIGITS) for area in areas]
 
 
 def ids(molecule: Molecule, per: str) -> Strings:

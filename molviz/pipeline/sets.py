@@ -18,6 +18,7 @@ from molviz.pipeline.draw import JSON, Drawing, DrawRequest, drawing_of, drawing
 from molviz.pipeline.inputs import Loaded, means_several
 from molviz.pipeline.outputs import NUMBER, encoded, makes_folder, refuse_inputs, save
 from molviz.pipeline.solids import shown
+from molviz.pipeline.units import unit_of
 from molviz.pipeline.values import Options, chosen, given, parse_count
 from molviz.pipeline.views import ViewOptions, view_of
 from molviz.visibility.view import View
@@ -174,9 +175,11 @@ def drawn(
     if together.stereo:
         options = replace(options, page=page_of_half(options.page))
     request, view = replace(request, options=options), view_of(first.spheres, view_options)
+    unit = unit_of(first)
     around = views_around(view, together.turntable or 1)
     views = [eye for one in around for eye in eyes(one, together.stereo)]
-    drawings = framed_alike([one for model in loaded for one in drawings_of(model, request, views, method, check)])
+    drawn_models = (drawings_of(model, request, views, method, check, unit) for model in loaded)
+    drawings = framed_alike([one for drawings in drawn_models for one in drawings])
     step = len(views) // len(around)
     pictures = tuple(tuple(drawings[row : row + step]) for row in range(0, len(drawings), step))
     numbers = [one.model for one in loaded] if together.models else range(1, len(around) + 1)

@@ -73,7 +73,7 @@ def shown(loaded: Loaded, options: SolidOptions) -> tuple[Loaded, Strings]:
     """
     names = np.full(len(loaded.molecule), SPACEFILL, dtype=f"<U{max(map(len, REPRESENTATIONS))}")
     for selection, name in options.representations:
-        names[select(loaded.molecule, selection)] = name
+        names[select(loaded.molecule, selection, loaded.model)] = name
     rows = np.flatnonzero(names != HIDE)
     if len(rows) == len(names):
         return loaded, names

@@ -17,7 +17,7 @@ from molviz.picture.colors import parse_color
 from molviz.picture.furniture import ROUND
 from molviz.picture.page import PAPER, Page, parse_length
 from molviz.picture.picture import Color
-from molviz.pipeline.inputs import WATER_RADIUS, InputOptions
+from molviz.pipeline.inputs import LONGEST, SHORTEST, WATER_RADIUS, InputOptions
 from molviz.pipeline.views import ViewOptions
 
 Options = Mapping[str, Any]
@@ -47,6 +47,11 @@ def parse_positive(value: Any) -> float:
     return _number(value, SMALLEST)
 
 
+def parse_distance(value: Any) -> float:
+    """Return a length in ångström of a scene, which may be of any size that doubles hold."""
+    return _number(value, SHORTEST, LONGEST)
+
+
 def parse_not_negative(value: Any) -> float:
     """Return a number, 0 or more."""
     return _number(value, 0.0)
@@ -57,13 +62,13 @@ def parse_number(value: Any) -> float:
     return _number(value, -LARGEST)
 
 
-def _number(value: Any, least: float) -> float:
+def _number(value: Any, least: float, most: float = LARGEST) -> float:
     try:
         number = float(value)
     except (TypeError, ValueError):
         raise ValueError(f"{value!r} is not a number") from None
-    if isinstance(value, bool) or not least <= number <= LARGEST:
-        raise ValueError(f"{value!r} is not a number from {least:g} to {LARGEST:g}")
+    if isinstance(value, bool) or not least <= number <= most:
+        raise ValueError(f"{value!r} is not a number from {least:g} to {most:g}")
     return number
 
 
@@ -155,7 +160,7 @@ def parse_scale_bar(value: Any) -> float | None:
     """Return a length in ångström; a round one that suits the drawing for True or "auto", None for False."""
     if value is False or value is None:
         return None
-    return ROUND if value is True or value in ("auto", ROUND) else parse_positive(value)
+    return ROUND if value is True or value in ("auto", ROUND) else parse_distance(value)
 
 
 def parse_chains(value: Any) -> tuple[str, ...]:
@@ -245,7 +250,7 @@ def view_options_from(options: Options) -> ViewOptions:
     return ViewOptions(
         orient=chosen(options, "orient"),
         rotations=given(options, "rotate", parse_rotations) or (),
-        distance=given(options, "perspective", parse_positive),
+        distance=given(options, "perspective", parse_distance),
     )
 
 

@@ -28,6 +28,8 @@ class AtomTable(NamedTuple):
     alternate: Strings  # (n,) "" where the atom has one location
     model: Ints  # (n,) increasing with the order of models
     line_of: Callable[[int], int | None]  # row → line of the file
+    segment: Strings  # (n,) "" where the format has none
+    hetero: Bools  # (n,) stated as HETATM
     bonds: Bonds = NO_BONDS  # between rows, as the file states them
 
     def take(self, rows: Ints) -> "AtomTable":
@@ -75,6 +77,7 @@ def _molecule(table: AtomTable, first: int, last: int, name: str) -> Molecule:
         name, table.position[part], table.element[part], atom_name=table.atom_name[part],
         residue_name=table.residue_name[part], residue=table.residue[part], chain=table.chain[part],
         bfactor=table.bfactor[part], radius=table.radius[part], stated_bonds=table.bonds.span(first, last),
+        segment=table.segment[part], hetero=table.hetero[part],
     )  # fmt: skip
 
 

@@ -4,6 +4,8 @@ GROMACS reference manual, "File formats", gro: residue number, residue name, ato
 each, then x, y, z in nanometres, each as wide as the distance between two decimal points; velocities may follow.
 """
 
+import re
+from collections.abc import Iterator
 from pathlib import PurePath
 from typing import NamedTuple
 
@@ -15,10 +17,11 @@ from molviz.model.elements import UNKNOWN, symbol_of_free_name
 from molviz.model.molecule import Molecule
 from molviz.readers.atoms import coinciding_note, coinciding_rows
 from molviz.readers.numbers import numbers, octets_of
-from molviz.readers.reading import Reading
+from molviz.readers.reading import Reading, sound_frames
 from molviz.readers.source import note
 
 NANOMETRE = 10.0  # ångström
+_COUNT = re.compile(rb"\d{1,18}")
 _NAMES = 20  # columns before the coordinates
 _BOX_WORDS = (3, 9)  # a rectangular box, or three vectors
 
@@ -32,22 +35,29 @@ class Frame(NamedTuple):
 
 
 def read_gro(data: bytes, source: str) -> Reading:
-    """Return the frames of a GRO file in ångström; raises InputError where count, columns or box are not clear."""
-    lines = data.rstrip().split(b"\n")
-    frames, at = [], 0
-    while at < len(lines):
-        frames.append(_frame(lines, at, source))
-        at += len(frames[-1].rows) + 3
+    """Return the frames of a GRO file in ångström, those before the first broken one with a warning.
+
+    Raises InputError where count, columns or box of the first are not clear.
+    """
     told: dict[str, str] = {}
-    molecules = tuple(_molecule(frame, source, told) for frame in frames)
+    frames = _frames(data.rstrip().split(b"\n"), source)
+    molecules, warnings = sound_frames(_molecule(frame, source, told) for frame in frames)
     chains = tuple(molecule.chain for molecule in molecules)
-    return Reading(source, "gro", molecules, warnings=tuple(told.values()), operator_chain=chains)
+    return Reading(source, "gro", molecules, warnings=(*told.values(), *warnings), operator_chain=chains)
+
+
+def _frames(lines: list[bytes], source: str) -> Iterator[Frame]:
+    at = 0
+    while at < len(lines):
+        frame = _frame(lines, at, source)
+        yield frame
+        at += len(frame.rows) + 3
 
 
 def _frame(lines: list[bytes], at: int, source: str) -> Frame:
     """Return the frame whose title stands at the given index."""
     text = lines[at + 1].strip() if at + 1 < len(lines) else b""
-    if not text.isdigit() or int(text) < 1:
+    if not _COUNT.fullmatch(text) or int(text) < 1:
         shown = text.decode("latin-1")[:40]
         raise InputError(f"{shown!r} below the title; expected the number of atoms of a frame", source, at + 2)
     count = int(text)
@@ -103,7 +113,11 @@ def _positions(frame: Frame, source: str) -> Floats:
         return InputError(message, source, frame.line + index // 3)
 
     cells = [text[k : k + width] for text in frame.rows for k in range(_NAMES, end, width)]
-    return numbers(np.array(cells), error).reshape(-1, 3) * NANOMETRE
+    with np.errstate(over="ignore"):
+        position = numbers(np.array(cells), error) * NANOMETRE
+    for index in np.flatnonzero(np.isinf(position))[:1].tolist():
+        raise error(index, cells[index].decode("latin-1"))
+    return position.reshape(-1, 3)
 
 
 def _width(row: bytes, source: str, line: int) -> int:

@@ -24,6 +24,7 @@ from molviz.readers.mmcif_bonds import bonds_stated_in
 from molviz.readers.numbers import LONGEST, SHOWN, number_of, numbers, octets_of, overlong
 from molviz.readers.reading import AssemblyPart, Reading
 from molviz.readers.source import note
+from molviz.vectors import transformed
 
 _AXES = ("x", "y", "z")
 _CARTESIAN = tuple(f"_atom_site.Cartn_{axis}" for axis in _AXES)
@@ -216,6 +217,8 @@ def _macromolecule(site: Site) -> Reading:
         bfactor=bfactor, radius=np.full(len(site), np.nan), occupancy=occupancy,
         alternate=site.first_texts("_atom_site.label_alt_id"),
         model=_order_of_first(site.first_texts("_atom_site.pdbx_PDB_model_num")), line_of=site.line_of,
+        segment=site.first_texts("_atom_site.label_asym_id"),
+        hetero=site.first_texts("_atom_site.group_PDB") == "HETATM",
     )  # fmt: skip
     models = models_of(table._replace(bonds=bonds_stated_in(site, table)), _name(site), site.source)
     assemblies, last = _assemblies(site)
@@ -311,7 +314,7 @@ def _product(factors: list[Floats]) -> Floats:
     """Return (3, 4) of the operators applied one after the other, the last first."""
     product = np.eye(4)
     for factor in factors:
-        product = product @ factor
+        product = transformed(product, factor.T)
     return product[:3]
 
 
@@ -333,7 +336,7 @@ def _unit_cell(site: Site) -> Reading:
     sites = small.get_all_unit_cell_sites()
     fraction = np.array([atom.fract.tolist() for atom in sites])
     fraction -= np.floor(fraction + 1e-6)  # operators in double precision leave 0 as −1e−17
-    position = fraction @ np.array(small.cell.orth.mat.tolist()).T
+    position = transformed(fraction, np.array(small.cell.orth.mat.tolist()))
     label = np.array([atom.label for atom in sites])
     element = np.array([symbol_of_label(atom.type_symbol or atom.label) for atom in sites])
     molecule = Molecule.of(_name(site), position, element, atom_name=label)

@@ -18,7 +18,7 @@ from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_atom_name
 from molviz.readers.atoms import AtomTable, models_of
 from molviz.readers.connections import Connection, connected
 from molviz.readers.numbers import number_of, numbers
-from molviz.readers.reading import AssemblyPart, Reading
+from molviz.readers.reading import AssemblyPart, Reading, left_out
 from molviz.readers.source import note
 
 WIDTH = 80
@@ -56,11 +56,9 @@ def read_pdb(data: bytes, source: str) -> Reading:
     is_atom = np.char.startswith(record, b"ATOM") | np.char.startswith(record, b"HETATM")
     if not is_atom.any():
         raise InputError("no ATOM or HETATM records; expected a PDB file with atoms", source)
-    atoms = lines.take(is_atom)
-    _check_columns(atoms, source)
     model, warnings = _models(record, lines, is_atom, source)
-    table, more = _table(atoms, model, source)
-    bonds, still_more = _connections(lines.take(record == b"CONECT"), _serials(atoms, 7), model, source)
+    atoms, table, more = _sound_table(lines.take(is_atom), model, source)
+    bonds, still_more = _connections(lines.take(record == b"CONECT"), _serials(atoms, 7), table.model, source)
     links = connected(table, list(_links(lines, record)))
     models = models_of(table._replace(bonds=joined_lists([bonds, links])), _title(record, lines, source), source)
     assemblies = _assemblies(lines.take(np.char.startswith(lines.field(1, 10), b"REMARK 350")), source)
@@ -107,6 +105,9 @@ def _models(record: Fields, lines: Lines, is_atom: Bools, source: str) -> tuple[
     parts = np.cumsum(opens | closes | (word == b"END"))
     opening, closing = np.flatnonzero(opens), np.flatnonzero(closes)
     warnings = _model_number_notes(lines.take(opening), source)
+    stray = closing[np.searchsorted(opening, closing) == np.searchsorted(opening, np.append(-1, closing[:-1]))]
+    if len(stray):
+        warnings.append(note("ENDMDL without a MODEL above it", source, int(lines.number[stray[0]])))
     unclosed = opening[1:][np.diff(np.searchsorted(closing, opening)) == 0]
     if len(unclosed):
         warnings.append(note("MODEL before the ENDMDL of the model above", source, int(lines.number[unclosed[0]])))
@@ -128,6 +129,23 @@ def _model_number_notes(openings: Lines, source: str) -> list[str]:
 # ---- atoms
 
 
+def _sound_table(atoms: Lines, model: Ints, source: str) -> tuple[Lines, AtomTable, list[str]]:
+    """Return lines and table of the atoms in models before the first broken one, and warnings.
+
+    Raises InputError where the first model is broken.
+    """
+    try:
+        _check_columns(atoms, source)
+        return atoms, *_table(atoms, model, source)
+    except InputError as wrong:
+        broken = int(model[np.searchsorted(atoms.number, wrong.line or 0)])
+        if broken == 0:
+            raise
+        rows = np.flatnonzero(model < broken)
+        sound, table, warnings = _sound_table(atoms.take(rows), model[rows], source)
+        return sound, table, [left_out(wrong, broken, "model"), *warnings]
+
+
 def _table(atoms: Lines, model: Ints, source: str) -> tuple[AtomTable, list[str]]:
     element, warnings = _elements(atoms, source)
     occupancy, more = _optional(atoms, "occupancy", 55, 60, 1.0, source)
@@ -138,7 +156,8 @@ def _table(atoms: Lines, model: Ints, source: str) -> tuple[AtomTable, list[str]
         residue_name=_names(atoms, 18, 21), residue=_residues(_names(atoms, 23, 27)), chain=chain,
         operator_chain=chain, bfactor=bfactor, radius=np.full(len(model), np.nan),
         occupancy=occupancy, alternate=_names(atoms, 17, 17), model=model,
-        line_of=lambda row: int(atoms.number[row]),
+        line_of=lambda row: int(atoms.number[row]), segment=_names(atoms, 73, 76),
+        hetero=np.char.startswith(np.char.upper(atoms.field(1, 6)), b"HETATM"),
     )  # fmt: skip
     return table, [*warnings, *more, *still_more]
 

@@ -29,6 +29,7 @@ class Row(NamedTuple):
     """One atom, in texts."""
 
     line: int  # counted from one
+    hetero: bool  # HETATM
     atom_name: bytes  # four columns with their blanks where these are known to hold it, else bare
     residue_name: bytes
     chain: bytes
@@ -77,7 +78,8 @@ def _row(line: bytes, number: int, source: str, alike: bool) -> Row:
     if apart and _RESIDUE_NUMBER.fullmatch(words[-6]):
         chain = words[4] if len(words) == _WITH_CHAIN else b""
         aligned = line[12:16].strip() == words[2]
-        return Row(number, line[12:16] if aligned else words[2], words[3], chain, words[-6], words[-5:])
+        name, hetero = line[12:16] if aligned else words[2], words[0] == b"HETATM"
+        return Row(number, hetero, name, words[3], chain, words[-6], words[-5:])
     if b"\t" not in line and _fits(line):
         return _row_of_columns(line, number)
     expected = "serial, atom, residue, chain if any, residue number, x y z, charge and radius"
@@ -93,7 +95,7 @@ def _fits(line: bytes) -> bool:
 def _row_of_columns(line: bytes, number: int) -> Row:
     values = [line[first:last].strip() for first, last in _COLUMNS] + line[54:].split()
     names = line[12:16], line[17:21].strip(), line[21:22].strip(), line[22:27].strip()
-    return Row(number, *names, values)
+    return Row(number, line.startswith(b"HETATM"), *names, values)
 
 
 # ---- columns
@@ -122,13 +124,14 @@ def _radii(rows: list[Row], radius: Floats, source: str) -> tuple[Floats, list[s
 def _table(rows: list[Row], position: Floats, radius: Floats, model: Ints) -> AtomTable:
     n = len(rows)
     name, residue_name, chain, residue = (
-        np.array([cell.decode("latin-1").strip() for cell in cells]) for cells in list(zip(*rows, strict=True))[1:5]
+        np.array([cell.decode("latin-1").strip() for cell in cells]) for cells in list(zip(*rows, strict=True))[2:6]
     )
     element = np.array([_element(row.atom_name.decode("latin-1"), row.residue_name.decode("latin-1")) for row in rows])
     return AtomTable(
         position=position, element=element, atom_name=name, residue_name=residue_name, residue=residue,
         chain=chain, operator_chain=chain, bfactor=np.full(n, np.nan), radius=radius,
         occupancy=np.ones(n), alternate=np.full(n, ""), model=model, line_of=lambda row: rows[row].line,
+        segment=np.full(n, ""), hetero=np.array([row.hetero for row in rows]),
     )  # fmt: skip
 
 

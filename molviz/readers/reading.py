@@ -1,16 +1,17 @@
 """What a file held: its models and the assemblies that its own operators make of them."""
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from molviz.arrays import Floats, Ints, Strings
-from molviz.errors import InputError
+from molviz.errors import InputError, listed
 from molviz.model.bonds import joined
 from molviz.model.molecule import Molecule, column_names
+from molviz.vectors import transformed
 
 
 class AssemblyPart(NamedTuple):
@@ -50,7 +51,7 @@ class Reading:
         Raises InputError, naming the assemblies there are, where the file has no such operators.
         """
         if id not in self.assemblies:
-            known = ", ".join(self.assemblies) or "none"
+            known = listed(list(self.assemblies)) or "none"
             raise InputError(f"no assembly {id!r}; the file has operators for: {known}", self.source)
         molecule, chain = self.models[model], self.operator_chain[model]
         copies: list[Molecule] = []
@@ -64,6 +65,31 @@ class Reading:
         return _joined(copies)
 
 
+class BeyondCountError(InputError):
+    """More atoms than the count of a frame says: that frame is in doubt, not the next."""
+
+
+def sound_frames(frames: Iterable[Molecule]) -> tuple[tuple[Molecule, ...], list[str]]:
+    """Return the frames of a trajectory before the first whose making raises InputError, and a warning about that.
+
+    Raises what the first frame raises, and BeyondCountError.
+    """
+    sound: list[Molecule] = []
+    try:
+        for frame in frames:
+            sound.append(frame)
+    except InputError as wrong:
+        if not sound or isinstance(wrong, BeyondCountError):
+            raise
+        return tuple(sound), [left_out(wrong, len(sound), "frame")]
+    return tuple(sound), []
+
+
+def left_out(wrong: InputError, sound: int, what: str) -> str:
+    """Return the warning that a file is read up to its first broken frame or model."""
+    return f"{wrong}; {what} {sound + 1} and all behind it are left out"
+
+
 def _copies(molecule: Molecule, rows: Ints, part: AssemblyPart, made: int) -> list[Molecule]:
     """Return one moved copy of the rows per operator, ``made`` copies of the same chains being there already."""
     original = molecule.take(rows)
@@ -72,7 +98,7 @@ def _copies(molecule: Molecule, rows: Ints, part: AssemblyPart, made: int) -> li
     for number, operator in enumerate(part.operators, start=made + 1):
         chain = np.char.add(names, f"-{number}" if number > 1 else "")[name_of_atom] if len(rows) else original.chain
         with np.errstate(over="ignore", invalid="ignore"):  # who draws or measures refuses what is not finite
-            position = original.position @ operator[:, :3].T + operator[:, 3]
+            position = transformed(original.position, operator[:, :3]) + operator[:, 3]
         copies.append(replace(original, position=position, chain=chain))
     return copies
 

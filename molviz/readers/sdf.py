@@ -3,6 +3,7 @@
 BIOVIA, "CTfile Formats": versions V2000 (fixed columns) and V3000 (words); ``$$$$`` ends a record of an SDF.
 """
 
+import re
 from pathlib import PurePath
 from typing import NamedTuple
 
@@ -17,6 +18,7 @@ from molviz.readers.numbers import numbers
 from molviz.readers.reading import Reading
 from molviz.readers.source import note
 
+_WHOLE = re.compile(r"[0-9]{1,18}")
 _HEADER = 4  # lines: title, program, comment, counts
 _END = b"$$$$"
 _ORDERS = {"1": 1.0, "2": 2.0, "3": 3.0, "4": AROMATIC, "9": 1.0}  # 9: coordination
@@ -188,7 +190,7 @@ def _isotopes(properties: list[bytes]) -> dict[str, str]:
 def _version_3000(lines: list[bytes], start: int, source: str) -> Table:
     rows = _rows_3000(lines, start)
     counts = next(((line, words[1:]) for line, words in rows if words[:1] == ["COUNTS"]), None)
-    if counts is None or len(counts[1]) < 2 or not all(word.isdigit() for word in counts[1][:2]):
+    if counts is None or len(counts[1]) < 2 or not all(_WHOLE.fullmatch(word) for word in counts[1][:2]):
         raise InputError("no M  V30 COUNTS with two numbers; expected those of atoms and bonds", source, start + 3)
     atoms = [_atom_3000(line, words, source) for line, words in _block(rows, "ATOM", source)]
     bonds = [_bond_3000(line, words, source) for line, words in _block(rows, "BOND", source)]

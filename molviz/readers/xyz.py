@@ -1,6 +1,7 @@
 """XYZ and extended XYZ: one or many frames of a count, a comment, and that many atoms."""
 
 import re
+from collections.abc import Iterator
 from pathlib import PurePath
 from typing import NamedTuple
 
@@ -12,7 +13,7 @@ from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_label
 from molviz.model.molecule import Molecule
 from molviz.readers.atoms import coinciding_note, coinciding_rows
 from molviz.readers.numbers import LONGEST, SHOWN, is_number, numbers, octets_of, overlong
-from molviz.readers.reading import Reading
+from molviz.readers.reading import BeyondCountError, Reading, sound_frames
 from molviz.readers.source import note
 
 _PROPERTIES = re.compile(rb"(?:^|\s)properties=(?:\"([^\"]*)\"|(\S+))", re.IGNORECASE)
@@ -42,39 +43,52 @@ PLAIN = Columns(symbol=0, x=1, width=4)
 
 
 def read_xyz(data: bytes, source: str) -> Reading:
-    """Return the frames of an XYZ file; raises InputError where a count and the rows do not match."""
-    frames = _frames(data.split(b"\n"), source)
+    """Return the frames of an XYZ file, those before the first broken one with a warning.
+
+    Raises InputError where count and rows of the first do not match, or a row is not clear.
+    """
     told: dict[str, str] = {}
-    molecules = tuple(_molecule(frame, source, told) for frame in frames)
-    extended = any(_PROPERTIES.search(frame.comment) for frame in frames)
+    lines, extended = data.split(b"\n"), False
+
+    def one(frame: Frame) -> Molecule:
+        nonlocal extended
+        molecule = _molecule(frame, source, told)
+        extended = extended or bool(_PROPERTIES.search(frame.comment))
+        return molecule
+
+    molecules, warnings = sound_frames(map(one, _frames(lines, source)))
+    if not molecules:
+        raise InputError("no atoms; expected a count, a comment and that many atoms", source)
     return Reading(
-        source, "extxyz" if extended else "xyz", molecules, warnings=tuple(told.values()),
+        source, "extxyz" if extended else "xyz", molecules, warnings=(*told.values(), *warnings),
         operator_chain=tuple(molecule.chain for molecule in molecules),
     )  # fmt: skip
 
 
-def _frames(lines: list[bytes], source: str) -> list[Frame]:
-    frames, at = [], 0
+def _frames(lines: list[bytes], source: str) -> Iterator[Frame]:
+    at = 0
     while at < len(lines):
         if not lines[at].strip():
             at += 1
             continue
+        if at and _is_atom(lines[at].split()):
+            raise BeyondCountError(f"{_shown(lines[at])}; expected the number of atoms of a frame", source, at + 1)
         count = _count(lines[at], source, at + 1)
-        frames.append(Frame(at + 3, lines[at + 1] if at + 1 < len(lines) else b"", _rows(lines, at, count, source)))
+        yield Frame(at + 3, lines[at + 1] if at + 1 < len(lines) else b"", _rows(lines, at, count, source))
         at += 2 + count
-    if not frames:
-        raise InputError("no atoms; expected a count, a comment and that many atoms", source)
-    return frames
 
 
 def _count(text: bytes, source: str, line: int) -> int:
     if not _COUNT.fullmatch(text):
-        shown = text.decode("latin-1").strip()[:40]
-        raise InputError(f"{shown!r}; expected the number of atoms of a frame", source, line)
+        raise InputError(f"{_shown(text)}; expected the number of atoms of a frame", source, line)
     count = int(text)
     if count < 1:
         raise InputError(f"the count is {count}; expected at least one atom", source, line)
     return count
+
+
+def _shown(text: bytes) -> str:
+    return repr(text.decode("latin-1").strip()[:SHOWN])
 
 
 def _rows(lines: list[bytes], at: int, count: int, source: str) -> list[list[bytes]]:

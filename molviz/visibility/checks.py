@@ -8,7 +8,7 @@ from molviz.errors import InternalError
 from molviz.geometry.intervals import Intervals, above, gaps
 from molviz.geometry.planar_map import euler_defect, loop_areas
 from molviz.geometry.rows import expand
-from molviz.vectors import dot
+from molviz.vectors import dot, length
 from molviz.visibility.eye import occluders_of, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
 from molviz.visibility.occlusion import discs_of, overlaps
@@ -71,7 +71,7 @@ def arcs_beside_wrong_faces(view_map: VisibilityMap, view: View) -> Ints:
     arcs = view_map.arcs
     middle = arcs.middle()
     along = arcs.tangent(middle)
-    size = np.linalg.norm(along, axis=1)
+    size = length(along)
     step = SIDE_STEP * size * np.minimum(np.abs(arcs.sweep), 1.0)
     curve = view_map.curve_arcs.curve
     rows = np.flatnonzero((step > LEAST_STEP * view_map.spheres.radius.max()) & ~_near_rims(view_map)[curve])

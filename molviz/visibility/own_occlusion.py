@@ -6,6 +6,7 @@ from molviz.arrays import Ints
 from molviz.geometry.boundary import Boundary
 from molviz.geometry.circles import Circles
 from molviz.geometry.intervals import TURN, above
+from molviz.vectors import transformed
 from molviz.visibility.curves import Curves, creases_of
 from molviz.visibility.eye import eye_of
 from molviz.visibility.named_arcs import Hidden
@@ -16,9 +17,9 @@ from molviz.visibility.view import View
 
 def creases_in_view(circles: Circles, view: View) -> Curves:
     """Return creases of the molecule's space in eye coordinates."""
-    turn = view.rotation.T
-    center = (circles.center - view.center) @ turn - eye_of(view)
-    return creases_of(circles._replace(center=center, a=circles.a @ turn, b=circles.b @ turn))
+    center = transformed(circles.center - view.center, view.rotation) - eye_of(view)
+    a, b = (transformed(vectors, view.rotation) for vectors in (circles.a, circles.b))
+    return creases_of(circles._replace(center=center, a=a, b=b))
 
 
 def outside_free_arcs(boundary: Boundary, arc: Ints) -> Hidden:

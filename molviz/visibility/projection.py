@@ -11,7 +11,7 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.model.spheres import Spheres
-from molviz.vectors import dot
+from molviz.vectors import dot, length
 from molviz.visibility.curves import LINE, Curves
 
 
@@ -81,7 +81,7 @@ class Central(NamedTuple):
 
     def nearness(self, points: Floats) -> Floats:
         """Return minus the distance from the eye."""
-        return np.asarray(-np.linalg.norm(points, axis=1))
+        return np.asarray(-length(points))
 
     def page_points(self, points: Floats) -> Floats:
         """``(x, y) · distance / −z``."""
@@ -113,7 +113,7 @@ class Central(NamedTuple):
 
     def receded(self, spheres: Spheres, by: float) -> Spheres:
         """Scale about the eye."""
-        factor = 1.0 + by / np.linalg.norm(spheres.center, axis=1)
+        factor = 1.0 + by / length(spheres.center)
         return Spheres(spheres.center * factor[:, None], spheres.radius * factor)
 
 

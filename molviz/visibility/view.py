@@ -1,13 +1,16 @@
 """Where the eye is: the rotation from a molecule's axes to the page's, and the distance of the eye."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from molviz.arrays import Floats
 from molviz.model.spheres import Spheres
+from molviz.vectors import length, transformed
 
 EQUAL_MOMENTS = 1e-4  # of the largest: moments closer than that leave the axes to rounding
+SWEEPS = 30  # of Jacobi's method; five suffice for doubles
 SKEW = 1e-6  # of the absolute third moment: less than that is a symmetric molecule
 
 
@@ -29,17 +32,17 @@ class View:
 
     def rotated(self, axis: str, degrees: float) -> "View":
         """Return the view after a right-handed turn of the molecule about the page's x, y or z."""
-        angle = np.radians(degrees)
+        angle = math.radians(degrees)
         turn = np.eye(3)
         one, other = ((1, 2), (2, 0), (0, 1))["xyz".index(axis)]
-        turn[one, one] = turn[other, other] = np.cos(angle)
-        turn[other, one] = np.sin(angle)
-        turn[one, other] = -np.sin(angle)
-        return View(turn @ self.rotation, self.center, self.distance)
+        turn[one, one] = turn[other, other] = math.cos(angle)
+        turn[other, one] = math.sin(angle)
+        turn[one, other] = -math.sin(angle)
+        return View(transformed(self.rotation.T, turn).T, self.center, self.distance)
 
     def of(self, spheres: Spheres) -> Spheres:
         """Return the spheres in view coordinates, ``center`` at the origin."""
-        return Spheres((spheres.center - self.center) @ self.rotation.T, spheres.radius)
+        return Spheres(transformed(spheres.center - self.center, self.rotation), spheres.radius)
 
 
 def middle(spheres: Spheres) -> Floats:
@@ -60,9 +63,9 @@ def principal_axes(spheres: Spheres, distance: float | None = None) -> View:
     it was turned; a right-handed frame in any case. Where moments are equal, as of a cube, the file's axes decide.
     """
     offset = spheres.center - spheres.center.mean(axis=0)
-    rotation = _principal_frame(offset.T @ offset)
+    rotation = _principal_frame(np.array([[np.sum(one * other) for other in offset.T] for one in offset.T]))
     for axis in range(2):
-        along = offset @ rotation[axis]
+        along = transformed(offset, rotation[axis, None])[:, 0]
         skew = np.sum(along**3)
         if skew < -SKEW * np.sum(np.abs(along) ** 3):
             rotation[axis] *= -1
@@ -72,14 +75,38 @@ def principal_axes(spheres: Spheres, distance: float | None = None) -> View:
 
 def _principal_frame(moments: Floats) -> Floats:
     """Eigenvectors (3, 3) in rows, longest first; among equal moments those nearest the file's axes, in their order."""
-    values, vectors = np.linalg.eigh(moments)
-    values, vectors = values[::-1], vectors.T[::-1]
+    values, vectors = _eigenvectors(moments)
     frame: list[Floats] = []
     for row in range(3):
         equal = vectors[np.abs(values - values[row]) <= EQUAL_MOMENTS * values[0]]
-        projected = np.vstack([equal.T @ equal @ axis for axis in np.eye(3)]) if len(equal) > 1 else equal
+        projected = transformed(equal.T, equal.T) if len(equal) > 1 else equal
         for taken in frame:
-            projected = projected - np.outer(projected @ taken, taken)
-        best = projected[np.argmax(np.round(np.linalg.norm(projected, axis=1), 6))]
-        frame.append(best / np.linalg.norm(best))
+            projected = projected - transformed(projected, taken[None]) * taken
+        size = length(projected)
+        best = int(np.argmax(np.round(size, 6)))
+        frame.append(projected[best] / size[best])
     return np.array(frame)
+
+
+def _eigenvectors(matrix: Floats) -> tuple[Floats, Floats]:
+    """Eigenvalues (3,), the largest first, and eigenvectors (3, 3) in rows of a symmetric matrix.
+
+    Jacobi's method: turns that clear one pair off the diagonal at a time. LAPACK's last digits differ between machines.
+    """
+    rest, vectors = matrix / max(float(np.abs(matrix).max()), math.ulp(0.0)), np.eye(3)
+    for step in range(3 * SWEEPS):
+        p, q = ((0, 1), (0, 2), (1, 2))[step % 3]
+        if rest[p, q] == 0:
+            continue
+        theta = float(rest[q, q] - rest[p, p]) / (2 * float(rest[p, q]))
+        t = math.copysign(1.0, theta) / (abs(theta) + math.hypot(theta, 1.0))
+        cosine = 1 / math.sqrt(1 + t * t)
+        turn = np.eye(3)
+        turn[p, p] = turn[q, q] = cosine
+        turn[p, q], turn[q, p] = -t * cosine, t * cosine
+        rest = transformed(transformed(rest, turn).T, turn)
+        rest[p, q] = rest[q, p] = 0.0
+        vectors = transformed(vectors.T, turn).T
+    values = np.diag(rest)
+    order = np.argsort(-values, kind="stable")
+    return values[order], vectors[order]

@@ -26,6 +26,7 @@ from molviz.write.text import plotter_text
 CHORD_ERROR = 0.5  # plotter units between a curve and its chords: no plotter resolves less
 ROUND = 1e-9  # relative difference of an ellipse's half-diameters that still counts as a circle
 MARGIN = 0.01  # of the plotting range, on every side
+DECIMALS = 6  # of plotter units, before they are rounded to whole ones: halves are halves on every machine
 UNITS_PER_CM = 400.0  # a plotter unit is 0.025 mm
 SMALLEST = 0.01  # centimetres, of letters: less than a pen's width, but not zero
 PITCH = 1.5  # widths from one letter to the next
@@ -100,7 +101,7 @@ def _lettered(text: Text, scale: float, shift: Floats) -> str:
 def _strokes(paths: Paths) -> list[str]:
     """One line of commands for every loop, drawn from whichever end is nearer."""
     arcs, (first, last) = paths.arcs, (paths.loop_start[:-1], paths.loop_start[1:] - 1)
-    begin, end = arcs.starts(), arcs.ends()
+    begin, end = np.round(arcs.starts(), DECIMALS), np.round(arcs.ends(), DECIMALS)
     forward, backward = _commands(arcs, 1.0), _commands(arcs, -1.0)
     lines = []
     for loop, reverse in drawing_order(begin[first], end[last]):
@@ -117,10 +118,10 @@ def _commands(arcs: PlaneArcs, direction: float) -> list[str]:
     Circles are drawn by ``AA`` about their centre, other ellipses by ``PA`` through chords.
     """
     turn = np.sign(cross(arcs.u, arcs.v))
-    sweep = np.degrees(arcs.sweep) * turn * direction
-    center = np.rint(arcs.c).astype(int).tolist()
+    sweep = np.round(np.degrees(arcs.sweep), DECIMALS) * turn * direction
+    center = np.rint(np.round(arcs.c, DECIMALS)).astype(int).tolist()
     step = _step(arcs.major())
-    chord = np.clip(np.degrees(step), 1.0, 5.0).astype(int)
+    chord = np.clip(np.round(np.degrees(step), DECIMALS), 1.0, 5.0).astype(int)
     commands = [
         f"AA{x},{y},{_number(angle)},{size};"
         for (x, y), angle, size in zip(center, sweep.tolist(), chord.tolist(), strict=True)
@@ -143,9 +144,9 @@ def _step(radius: Floats) -> Floats:
 
 
 def _chords(arcs: PlaneArcs, row: int, step: float, direction: float) -> str:
-    count = max(1, math.ceil(abs(float(arcs.sweep[row])) / step))
+    count = max(1, math.ceil(round(abs(float(arcs.sweep[row])) / step, DECIMALS)))
     share = np.arange(1, count + 1) / count if direction > 0 else np.arange(count - 1, -1, -1) / count
-    points = arcs.take(np.full(count, row)).at(arcs.start[row] + arcs.sweep[row] * share)
+    points = np.round(arcs.take(np.full(count, row)).at(arcs.start[row] + arcs.sweep[row] * share), DECIMALS)
     return f"PA{','.join(_point(point) for point in points)};"
 
 

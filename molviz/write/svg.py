@@ -1,6 +1,5 @@
 """SVG: one element per shape, in groups that any editor shows by name."""
 
-import gzip
 import hashlib
 from collections import Counter
 from collections.abc import Sequence
@@ -29,6 +28,7 @@ from molviz.picture.picture import (
     StrokeLayer,
     TextLayer,
 )
+from molviz.write.gzipped import gzipped
 from molviz.write.paint import origins
 from molviz.write.svg_gradient import gradient_element
 from molviz.write.svg_path import path_data
@@ -93,7 +93,7 @@ def describe(drawing: Drawing, picture: Picture) -> None:
 
 def write_svgz(picture: Picture) -> bytes:
     """Return the picture as gzipped SVG, without a date."""
-    return gzip.compress(write_svg(picture), mtime=0)
+    return gzipped(write_svg(picture))
 
 
 def hexadecimal(color: Color) -> str:

@@ -1,12 +1,12 @@
 """One SVG that shows several pictures in turn, by CSS alone; the first for readers who want nothing to move."""
 
-import gzip
 import math
 from collections.abc import Sequence
 
 from svgwrite.container import Group
 
 from molviz.picture.picture import Picture
+from molviz.write.gzipped import gzipped
 from molviz.write.svg import OWN, Elements, empty_drawing, finished
 from molviz.write.text import number
 
@@ -36,7 +36,7 @@ def write_animated(pictures: Sequence[Picture]) -> bytes:
 
 def write_animated_svgz(pictures: Sequence[Picture]) -> bytes:
     """Return the same gzipped, without a date."""
-    return gzip.compress(write_animated(pictures), mtime=0)
+    return gzipped(write_animated(pictures))
 
 
 def in_turn(count: int, time: int) -> str:

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from molviz import toml
-from molviz.arrays import Floats, Strings
-from molviz.errors import InputError, OptionError, expected_instead
+from molviz.arrays import Bools, Floats, Strings
+from molviz.errors import InputError, OptionError, expected_instead, listed
 from molviz.model.elements import symbol_of
 from molviz.model.molecule import Molecule
 
@@ -32,11 +32,12 @@ GUESS = 2.0  # ångström, where the table has nothing: about the mean of all me
 
 @dataclass(frozen=True)
 class RadiiTable:
-    """Radii in ångström by element, and by (residue name, atom name) where the table distinguishes them."""
+    """Radii in ångström by element, by the name of an atom or bead, and by (residue name, atom name)."""
 
     title: str
     source: str
     elements: Mapping[str, float]
+    names: Mapping[str, float]
     atoms: Mapping[tuple[str, str], float]
     implicit_hydrogens: bool
 
@@ -44,9 +45,10 @@ class RadiiTable:
 def load_table(name: str) -> RadiiTable:
     """Return a published table by its name in ``TABLES``, or the one in the user's file.
 
-    A user's file is TOML as the published ones are (``[elements]``; ``[types]`` and ``[residues]`` for united atoms),
-    or text of two columns, element and radius in ångström, with ``#`` for comments. Raises OptionError where there is
-    no such file, or it holds a name that is no element or a radius that is not positive and finite.
+    A user's file is TOML as the published ones are (``[elements]``; ``[names]`` of atoms that are none, such as
+    coarse-grained beads; ``[types]`` and ``[residues]`` for united atoms), or text of two columns, element and radius
+    in ångström, with ``#`` for comments. Raises OptionError where there is no such file, or it holds a name that is no
+    element or a radius that is not positive and finite.
     """
     if name in TABLES:
         return _published(name)
@@ -60,18 +62,14 @@ def load_table(name: str) -> RadiiTable:
 def radii(molecule: Molecule, table: str = DEFAULT) -> tuple[Floats, tuple[str, ...]]:
     """Return the radius (n,) of every atom in ångström, and warnings, one of a kind.
 
-    The molecule's own radius goes first, then the table's for residue and atom name, then its for the element (D being
-    H), and ``GUESS``, with a warning, where there is none. The name ``file`` is no table but the molecule's own radii;
-    raises InputError where an atom has none.
+    The molecule's own radius goes first, then the table's for residue and atom name, for the name alone, and for the
+    element (D being H), and ``GUESS``, with a warning, where there is none. The name ``file`` is no table but the
+    molecule's own radii; raises InputError where an atom has none.
     """
     if table == OWN:
         return _own(molecule), ()
     loaded = load_table(table)
-    element = np.where(molecule.element == "D", "H", molecule.element)
-    tabulated = _by_element(element, loaded.elements)
-    if loaded.atoms:
-        by_atom = _by_atom(molecule, loaded.atoms)
-        tabulated = np.where(np.isnan(by_atom), tabulated, by_atom)
+    element, tabulated = _elements(molecule), _tabulated(molecule, loaded)
     needed = np.isnan(molecule.radius)
     guessed = needed & np.isnan(tabulated)
     radius = np.where(needed, np.where(guessed, GUESS, tabulated), molecule.radius)
@@ -79,6 +77,29 @@ def radii(molecule: Molecule, table: str = DEFAULT) -> tuple[Floats, tuple[str, 
     if loaded.implicit_hydrogens and (needed & (element == "H")).any():
         warnings.append(f"table {table} counts hydrogens within the heavy atoms, yet the molecule has its own as well")
     return radius, tuple(warnings)
+
+
+def is_known(molecule: Molecule, table: str) -> Bools:
+    """Return which atoms (n,) have a radius of their own or in the table, so that none is guessed."""
+    if table == OWN:
+        return ~np.isnan(molecule.radius)
+    return ~np.isnan(molecule.radius) | ~np.isnan(_tabulated(molecule, load_table(table)))
+
+
+def _elements(molecule: Molecule) -> Strings:
+    return np.where(molecule.element == "D", "H", molecule.element)
+
+
+def _tabulated(molecule: Molecule, table: RadiiTable) -> Floats:
+    """The radii (n,) of the table, NaN where it has none."""
+    radius = _by_text(_elements(molecule), table.elements)
+    if table.names:
+        by_name = _by_text(np.char.upper(molecule.atom_name), table.names)
+        radius = np.where(np.isnan(by_name), radius, by_name)
+    if table.atoms:
+        by_atom = _by_atom(molecule, table.atoms)
+        radius = np.where(np.isnan(by_atom), radius, by_atom)
+    return radius
 
 
 def _own(molecule: Molecule) -> Floats:
@@ -92,13 +113,13 @@ def _own(molecule: Molecule) -> Floats:
 def _guess_notes(element: Strings, table: str) -> list[str]:
     if not len(element):
         return []
-    counts = ", ".join(f"{symbol} ({count})" for symbol, count in sorted(Counter(element.tolist()).items()))
+    counts = listed([f"{symbol} ({count})" for symbol, count in sorted(Counter(element.tolist()).items())])
     return [f"radius guessed as {GUESS:.2f} Å, for table {table} has none: {counts}"]
 
 
-def _by_element(element: Strings, elements: Mapping[str, float]) -> Floats:
-    symbols, which = np.unique(element, return_inverse=True)
-    return np.array([elements.get(symbol, np.nan) for symbol in symbols.tolist()])[which]
+def _by_text(column: Strings, known: Mapping[str, float]) -> Floats:
+    texts, which = np.unique(column, return_inverse=True)
+    return np.array([known.get(text, np.nan) for text in texts.tolist()])[which]
 
 
 def _by_atom(molecule: Molecule, atoms: Mapping[tuple[str, str], float]) -> Floats:
@@ -138,15 +159,16 @@ def _table(content: Mapping[str, Any], title: str, name: str) -> RadiiTable:
     elements = {
         _symbol(text, name): _radius(value, text, name) for text, value in _section(content, "elements", name).items()
     }
+    names = {text.upper(): _radius(value, text, name) for text, value in _section(content, "names", name).items()}
     types = {text: _radius(value, text, name) for text, value in _section(content, "types", name).items()}
     atoms = _atoms(_section(content, "residues", name), types, name)
     source = str(content.get("source", name))
     if "completed_by" in content:
         for rest in _completing(content["completed_by"], name):
             elements, source = {**rest.elements, **elements}, f"{source}; completed by {rest.source}"
-    if not elements and not atoms:
+    if not elements and not atoms and not names:
         raise OptionError("the radii table is empty; expected [elements]", name)
-    return RadiiTable(title, source, elements, atoms, bool(content.get("implicit_hydrogens", False)))
+    return RadiiTable(title, source, elements, names, atoms, bool(content.get("implicit_hydrogens", False)))
 
 
 def _completing(tables: object, name: str) -> list[RadiiTable]:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
+from molviz.vectors import transformed
 
 AWAY = 5.0  # points between molecule and labels
 DIRECTIONS = 120  # sides of the outline
@@ -75,7 +76,8 @@ def outline_around(points: Floats, away: float, higher: float = 0.0) -> Floats:
     """
     angle = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
     d = np.column_stack([np.cos(angle), np.sin(angle)])
-    h = np.array([(points[:, :2] @ row + points[:, 2]).max() for row in d]) + away + higher * np.abs(d[:, 1])
+    reach = [(transformed(points[:, :2], row[None])[:, 0] + points[:, 2]).max() for row in d]
+    h = np.array(reach) + away + higher * np.abs(d[:, 1])
     after, h_after = np.roll(d, -1, axis=0), np.roll(h, -1)
     area = d[:, 0] * after[:, 1] - d[:, 1] * after[:, 0]
     x = h * after[:, 1] - h_after * d[:, 1]

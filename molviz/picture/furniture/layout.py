@@ -36,6 +36,7 @@ class Furniture:
 
     title: str = ""
     scale_bar: float | None = None  # ångström, or ROUND
+    unit: float = 1.0  # ångström, what stands for one in these and in the drawing
     legend: Ramp | Swatches | None = None
     labels: Sequence[Label] = ()
     discs: Floats = field(default_factory=lambda: np.empty((0, 3)))  # x y r, whose union labels stay off
@@ -97,7 +98,7 @@ def _arranged(scale: float, drawing: Box, furniture: Furniture) -> _Arranged:
         parts.append(legend(furniture.legend, inner.x1 + LEGEND_GAP, drawing, color))
     if furniture.scale_bar is not None:
         length = furniture.scale_bar or round_length(SHARE * (drawing.x1 - drawing.x0) / scale)
-        parts.append(scale_bar(length, scale, middle, inner.y0 - AROUND, color))
+        parts.append(scale_bar(length, scale, middle, inner.y0 - AROUND, color, furniture.unit))
     if furniture.title.strip():
         top = _around(drawing, parts).y1 + AROUND
         parts.append(_title(furniture.title, middle, top, drawing.x1 - drawing.x0, color))

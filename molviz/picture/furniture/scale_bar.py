@@ -28,13 +28,13 @@ def length_text(length: float) -> str:
 
 
 def scale_bar(
-    length: float, scale: float, middle: float, top: float, color: Color
+    length: float, scale: float, middle: float, top: float, color: Color, unit: float = 1.0
 ) -> tuple[list[Piece], Box]:
-    """Return a bar of ``length`` ångström, in the middle at x, below y = ``top``, and its box.
+    """Return a bar of ``length`` times ``unit`` ångström, in the middle at x, below y = ``top``, and its box.
 
     In a central view it holds at the distance of the centre.
     """
-    half, y, text = length * scale / 2, top - TICK / 2 - LINE / 2, length_text(length)
+    half, y, text = length * scale / 2, top - TICK / 2 - LINE / 2, length_text(length * unit)
     left, right = middle - half, middle + half
     start = np.array([[left, y], [left, y - TICK / 2], [right, y - TICK / 2]])
     end = np.array([[right, y], [left, y + TICK / 2], [right, y + TICK / 2]])

@@ -12,7 +12,7 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.geometry.circles import circles_about
 from molviz.model.spheres import Spheres
-from molviz.vectors import dot
+from molviz.vectors import dot, length
 from molviz.visibility.curves import Curves, horizons_of
 from molviz.visibility.forms import Linear, Quadratic
 
@@ -146,7 +146,7 @@ class CentralSpheres(NamedTuple):
 
     def horizons(self) -> Curves:
         """Circles of radius r L / D about c L² / D²."""
-        far = np.linalg.norm(self.spheres.center, axis=1)
+        far = length(self.spheres.center)
         tangent, number = self._tangent(), np.arange(len(far))
         center = self.spheres.center * (tangent / far)[:, None] ** 2
         axis = -self.spheres.center / far[:, None]
@@ -193,7 +193,7 @@ class CentralSpheres(NamedTuple):
     def surface(self, sphere: Ints, page: Floats) -> Floats:
         """Minus the distance ``p·ĉ D − √(r² − D² sin²)`` at which the line of sight enters the ball."""
         ray = np.column_stack([page, np.full(len(page), -self.distance)])
-        ray /= np.linalg.norm(ray, axis=1)[:, None]
+        ray /= length(ray)[:, None]
         c = self.spheres.center[sphere]
         along, beside = dot(ray, c), np.cross(ray, c)
         square = self.spheres.radius[sphere] ** 2 - dot(beside, beside)
@@ -203,11 +203,11 @@ class CentralSpheres(NamedTuple):
     def surface_bounds(self, sphere: Ints, low: Floats, side: float) -> tuple[Floats, Floats]:
         """The farthest of the four corners, as distance grows with the angle from the axis; and r − D."""
         corners = [self.surface(sphere, low + [x, y]) for x in (0.0, side) for y in (0.0, side)]
-        far = np.linalg.norm(self.spheres.center, axis=1)
+        far = length(self.spheres.center)
         return np.min(corners, axis=0), (self.spheres.radius - far)[sphere]
 
     def horizon_angle(self, horizons: Curves, sphere: Ints, points: Floats) -> Floats:
         """The angle at which the line through the eye and the point touches the sphere."""
-        far = np.linalg.norm(points, axis=1)
+        far = length(points)
         touching = points * (self._tangent()[sphere] / far)[:, None]
         return _angle_on(horizons, sphere, touching)
