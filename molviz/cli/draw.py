@@ -9,6 +9,7 @@ from pathlib import PurePath
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 from molviz.cli.batch import for_each
 from molviz.cli.main import TYPED
@@ -32,6 +33,7 @@ from molviz.pipeline.draw import Drawing, DrawRequest, draw_request_from, suffix
 from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.outputs import makes_folder, refuse_inputs, save, target_of
 from molviz.pipeline.sets import ONE_EACH, DrawingSet, SetOptions, drawn, holds_set, set_options_from
+from molviz.pipeline.state import with_state
 from molviz.pipeline.values import input_options_from, parse_count, parse_scale_bar, view_options_from
 from molviz.pipeline.views import ViewOptions
 
@@ -45,7 +47,7 @@ output_options = applied(
     click.option("-o", "--output", metavar="FILE", help="Its suffix is the format; many: a folder or {stem}."),
     click.option("--to", metavar="FORMAT", help="Format (svg, ps, …) where the output is - or a folder."),
 )
-drawing_options = applied(
+look_options = applied(
     shared("method", show_default=True),
     shared("check", help="Verify the invariants of the visibility map first."),
     shared("rep", multiple=True, metavar="[SELECTION=]NAME", help=f"{', '.join(REPRESENTATIONS)}; repeatable."),
@@ -68,10 +70,13 @@ drawing_options = applied(
     shared("cavities", help="Only the balls that line a cavity (of --probe, 1.4 Å unless given; of vdw, 0)."),
     shared("water", help="Draw water, which is left out otherwise if there is anything else."),
     eye_options,
-    shared("turntable", type=COUNT, metavar="N", help="N views about the y axis: {n} in FILE, pages, animation."),
-    shared("stereo", help="Two views beside each other, for eyes that look straight ahead or that cross."),
     page_options,
 )
+set_options = applied(
+    shared("turntable", type=COUNT, metavar="N", help="N views about the y axis: {n} in FILE, pages, animation."),
+    shared("stereo", help="Two views beside each other, for eyes that look straight ahead or that cross."),
+)
+drawing_options = applied(look_options, set_options)
 plotter_options = applied(
     click.option("--plotter", default="", metavar="MODEL", help="Plotter for .hpgl (default hp7475a)."),
     click.option("--paper", default="", metavar="SIZE", help="Paper in the plotter (default a4)."),
@@ -83,6 +88,7 @@ plotter_options = applied(
 @output_options
 @drawing_options
 @shared("fill", help="Regions filled or not (default: the style's).")
+@shared("view_from", metavar="FILE", help="Options that the page of molviz view saved; those typed beside it win.")
 @plotter_options
 @click.option("--json", "as_json", is_flag=True, help="The summary as one JSON object a line on standard output.")
 @input_options
@@ -103,6 +109,7 @@ def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
 
 def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     """Draw every input with the options of ``draw``."""
+    options = with_state(options, stated())
     look, together = draw_request_from(options), set_options_from(options)
     wanted, eye = input_options_from(options), view_options_from(options)
     suffix, output = suffix_of(options["output"], options["to"]), options["output"] or "-"
@@ -134,7 +141,14 @@ def drawn_by(source: str) -> str:
 def read_by(options: dict[str, Any]) -> tuple[str, ...]:
     """Return the names of all files that a command reads: its inputs, and what its options name."""
     inputs = click.get_current_context().params.get("inputs", ())
-    return (*inputs, *(options[name] for name in ("style", "palette", "radii")))
+    named = (options.get(name) for name in ("style", "palette", "radii", "view_from"))
+    return (*inputs, *(str(name) for name in named if name))
+
+
+def stated() -> list[str]:
+    """Return the names of the options that were typed."""
+    context = click.get_current_context()
+    return [name for name in context.params if context.get_parameter_source(name) is not ParameterSource.DEFAULT]
 
 
 def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str, options: dict[str, Any]) -> None:
