@@ -36,6 +36,7 @@ from molviz.pipeline.sets import ONE_EACH, DrawingSet, SetOptions, drawn, holds_
 from molviz.pipeline.state import with_state
 from molviz.pipeline.values import input_options_from, parse_count, parse_scale_bar, view_options_from
 from molviz.pipeline.views import ViewOptions
+from molviz.viewer.terminal import UNABLE, show
 
 PLACES = ("-o", "--output", "--to")  # options that say where a result goes
 STAGES = 3  # reading, what is seen, writing
@@ -90,6 +91,7 @@ plotter_options = applied(
 @shared("fill", help="Regions filled or not (default: the style's).")
 @shared("view_from", metavar="FILE", help="Options that the page of molviz view saved; those typed beside it win.")
 @plotter_options
+@click.option("--show", is_flag=True, help="A small preview in a terminal that can show pictures; needs no -o.")
 @click.option("--json", "as_json", is_flag=True, help="The summary as one JSON object a line on standard output.")
 @input_options
 def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
@@ -112,10 +114,11 @@ def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     options = with_state(options, stated())
     look, together = draw_request_from(options), set_options_from(options)
     wanted, eye = input_options_from(options), view_options_from(options)
-    suffix, output = suffix_of(options["output"], options["to"]), options["output"] or "-"
+    suffix, output = format_and_output(options)
     refuse_shared_targets(inputs, output, suffix, options)
-    if options.get("as_json") and output == "-":
-        raise click.UsageError("--json and the picture cannot both go to standard output; expected -o FILE")
+    printed = "--json" if options.get("as_json") else "--show" if options.get("show") else ""
+    if printed and output == "-":
+        raise click.UsageError(f"{printed} and the picture cannot both go to standard output; expected -o FILE")
     if together.many and not holds_set(output, suffix):
         raise click.UsageError(f"{suffix} holds one picture; {ONE_EACH}")
 
@@ -125,13 +128,20 @@ def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     for_each(inputs, one)
 
 
+def format_and_output(options: dict[str, Any]) -> tuple[str, str]:
+    """Return the format and where it goes: a name, - for standard output, or "" where the picture is only shown."""
+    if options.get("show") and not options["output"] and not options["to"]:
+        return ".svg", ""
+    return suffix_of(options["output"], options["to"]), options["output"] or "-"
+
+
 def drawn_by(source: str) -> str:
     """Return the command that draws one input, as it may be typed again: without where the result goes."""
     typed = click.get_current_context().meta.get(TYPED, [])
     kept: list[str] = []
     for before, word in zip(["", *typed], typed, strict=False):
         named = word.partition("=")[0]
-        if before not in PLACES and named not in (*PLACES, "--quiet", "--strict", "--json"):
+        if before not in PLACES and named not in (*PLACES, "--quiet", "--strict", "--json", "--show"):
             kept.append(word)
     inputs = click.get_current_context().params.get("inputs", ())
     options = [word for word in kept[1:] if word not in inputs]
@@ -157,6 +167,8 @@ def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str, opt
     for source in inputs:
         target = target_of(source, output, suffix)
         refuse_inputs(target, read_by(options))
+        if not target:
+            continue
         if target in drawn_from and target != output:
             both = f"{drawn_from[target]} and {source}"
             raise click.UsageError(f"{both} would both be drawn to {target}; expected inputs of different names")
@@ -177,24 +189,33 @@ def _draw_one(
 ) -> None:
     began, progress = time.monotonic(), Progress(STAGES)
     progress("reading")
-    models, size = load_and_warn(source, wanted, options["quiet"], options["strict"]), 0
+    models = load_and_warn(source, wanted, options["quiet"], options["strict"])
     try:
         progress("what is seen")
         described = replace(look, description=drawn_by(source))
         drawing = drawn(models, described, eye, together, options["method"], options["check"])
         warn(drawing.notes, options["quiet"], options["strict"])
         progress("writing")
-        for path, data in files_of(drawing, target, suffix, options["plotter"], options["paper"]):
-            refuse_inputs(path, read_by(options))
-            save(path, data, makes_folder(options["output"] or ""))
-            size += len(data)
+        size = _written(drawing, target, suffix, options) if target else 0
     finally:
         progress.close()
     seconds = time.monotonic() - began
+    if options.get("show"):
+        warn(() if show(drawing.svg()) else [UNABLE], options["quiet"], options["strict"])
     if options.get("as_json"):
         tell_json(_summary_as_data(source, target, drawing, size, seconds))
     elif not options["quiet"]:
-        say(_summary(source, target, drawing, size, seconds))
+        say(_summary(source, target or "terminal", drawing, size, seconds))
+
+
+def _written(drawing: Drawing | DrawingSet, target: str, suffix: str, options: dict[str, Any]) -> int:
+    """Write all files, and return how many bytes these are."""
+    size = 0
+    for path, data in files_of(drawing, target, suffix, options["plotter"], options["paper"]):
+        refuse_inputs(path, read_by(options))
+        save(path, data, makes_folder(options["output"] or ""))
+        size += len(data)
+    return size
 
 
 def files_of(

@@ -1,4 +1,4 @@
-"""What the page's panel offers: options of ``molviz draw``, with their choices from the tables that the front door has."""
+"""What the page's panel offers: options of ``molviz draw``, with their choices from the front door's own tables."""
 
 from typing import Any
 

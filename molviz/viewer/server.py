@@ -135,7 +135,7 @@ async def question_of(request: Request) -> object:
 
 
 class Pages:
-    """What is below the token: the files of the page, answers to its questions, and a stream for as long as it lives."""
+    """What is below the token: the page's files, answers to its questions, and a stream for as long as it lives."""
 
     def __init__(self, session: Session, over: Callable[[], None]) -> None:
         self.session, self.viewers, self.worker = session, Viewers(over), Worker()

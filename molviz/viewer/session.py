@@ -48,11 +48,12 @@ class Answer(NamedTuple):
 
 @dataclass(frozen=True)
 class Input:
-    """One thing to look at; ``path`` is "" for what came from Python."""
+    """One thing to look at; ``expression`` is what Python calls it, "" where it is a file for the command line."""
 
     name: str
     path: str
     reading: Reading
+    expression: str = ""
 
 
 class Session:
@@ -230,12 +231,14 @@ class Session:
         return drawing
 
     def _description(self, number: int, options: Options) -> str:
-        path = self.inputs[number].path
-        return drawn_by(path, options) if path else ""
+        one = self.inputs[number]
+        return "" if one.expression else drawn_by(one.path, options)
 
     def _command(self, number: int, options: Options, suffix: str) -> str:
         one = self.inputs[number]
-        return command_of(one.path, options, self._name(number, suffix)) if one.path else call_of(one.name, options)
+        if one.expression:
+            return call_of(one.expression, options)
+        return command_of(one.path, options, self._name(number, suffix))
 
     def _name(self, number: int, suffix: str) -> str:
         """What a saved file is called."""
@@ -245,11 +248,6 @@ class Session:
 def input_of(path: str, format: str | None = None, unpack_all: bool = False) -> Input:
     """Return a file that was read; raises InputError as ``molviz.read`` does."""
     return Input(PurePath(path).name, path, read(path, None, format, unpack_all))
-
-
-def first_picture(session: Session) -> str:
-    """Return the first input as SVG, with the options that a session began with."""
-    return session.answer({"ask": "save", "format": "svg"}).body.decode()
 
 
 def _refuse_no_text(value: Any) -> None:
