@@ -20,7 +20,7 @@ import uvicorn
 from starlette.applications import Starlette
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response, StreamingResponse
-from starlette.routing import Mount, Route
+from starlette.routing import Mount, Route, Router
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from molviz.viewer.session import Answer, Session
@@ -110,8 +110,8 @@ class Guard:
 
 
 def refusal(status: int = 403) -> Response:
-    """Return the answer to what nobody may ask."""
-    return Response(b"refused\n", status, HEADERS, "text/plain")
+    """Return the answer to what nobody may ask; the line is closed, so that what follows is not even read."""
+    return Response(b"refused\n", status, {**HEADERS, "Connection": "close"}, "text/plain")
 
 
 def packed(answer: Answer) -> bytes:
@@ -147,7 +147,8 @@ class Pages:
             Route("/", self.file), Route("/ask", self.ask, methods=["POST"]), Route("/alive", self.alive),
             Route("/{name}", self.file),
         ]  # fmt: skip
-        app = Starlette(routes=[Mount(f"/{token}", routes=routes)], exception_handlers={404: _refused, 405: _refused})
+        below = Mount(f"/{token}", Router(routes, redirect_slashes=False))
+        app = Starlette(routes=[below], exception_handlers={404: _refused, 405: _refused})
         app.router.redirect_slashes = False
         return Guard(app, token, port)
 
