@@ -56,6 +56,12 @@ def test_what_is_no_orientation_is_refused(value: Any) -> None:
         molviz.draw(CAFFEINE, view=value)
 
 
+def test_a_text_and_its_numbers_are_one_view_to_the_last_bit() -> None:
+    text = "0.04763,-0.93414,0.03102,0.35235"
+    once = rotation_of(parse_orientation(text))
+    assert np.array_equal(rotation_of(parse_orientation(parse_orientation(text))), once)
+
+
 def test_the_view_comes_before_the_rotations(tmp_path: Path) -> None:
     one = molviz.draw(CAFFEINE, orient="file", rotate=["x,20", "z,40"]).svg()
     assert molviz.draw(CAFFEINE, view=(1, 0, 0, 0), rotate=["x,20", "z,40"]).svg() == one

@@ -113,15 +113,14 @@ def parse_rotations(value: Any) -> tuple[tuple[str, float], ...]:
 
 
 def parse_orientation(value: Any) -> Quaternion:
-    """Return a quaternion of length 1 of ``"w,x,y,z"`` or ``(w, x, y, z)``, which may have any length but 0."""
+    """Return the quaternion ``"w,x,y,z"`` or ``(w, x, y, z)``, of any length but 0, number by number as it is."""
     try:
         w, x, y, z = (float(part) for part in (value.split(",") if isinstance(value, str) else value))
     except (TypeError, ValueError):
         raise ValueError(f"{value!r} is no orientation; expected four numbers w,x,y,z") from None
-    length = math.hypot(w, x, y, z)
-    if not SMALLEST <= length <= LARGEST:
+    if not SMALLEST <= math.hypot(w, x, y, z) <= LARGEST:
         raise ValueError(f"{value!r} is no orientation; expected numbers that are not all 0, for example 1,0,0,0")
-    return w / length, x / length, y / length, z / length
+    return w, x, y, z
 
 
 def parse_background(value: Any) -> Color | None:

@@ -1,5 +1,6 @@
 """Where the eye is: the user's options, or a view of their own, become a view of one model."""
 
+import math
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -22,7 +23,7 @@ class ViewOptions:
     orient: str = "principal"
     rotations: tuple[tuple[str, float], ...] = ()  # axis of the page, degrees
     distance: float | None = None  # ångström from the centre, None for a parallel view
-    orientation: Quaternion | None = None  # of length 1, instead of ``orient``
+    orientation: Quaternion | None = None  # instead of ``orient``
 
 
 def view_of(spheres: Spheres, view_options: ViewOptions) -> View:
@@ -41,8 +42,8 @@ def _beginning(spheres: Spheres, view_options: ViewOptions) -> View:
 
 
 def rotation_of(quaternion: Quaternion) -> Floats:
-    """Return the rotation (3, 3) that a quaternion of length 1 stands for: ``v + 2 w (q × v) + 2 q × (q × v)``."""
-    w, x, y, z = quaternion
+    """Return the rotation (3, 3) of a quaternion, made as long as 1: ``v + 2 w (q × v) + 2 q × (q × v)``."""
+    w, x, y, z = np.array(quaternion) / math.hypot(*quaternion)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.asarray(np.eye(3) + 2 * w * cross + 2 * cross @ cross)
 

@@ -10,20 +10,20 @@ from molviz.pipeline.values import CHOICES
 GROUPS = {  # of the panel, and the options in each with what people read beside them
     "Look": {
         "style": "Style", "rep": "Representation", "color_by": "Colour by", "palette": "Palette",
-        "color": "Colours of selections", "parts": "Regions", "outline": "Outline, factor or points",
-        "crease": "Crease, points", "background": "Background",
+        "color": "Colours of selections", "parts": "Regions", "outline": "Outline",
+        "crease": "Crease", "background": "Background",
     },
     "Atoms": {
         "select": "Selection", "chain": "Chains", "water": "Water", "no_hydrogens": "Leave out hydrogens",
         "model": "Model", "scale_radii": "Scale of radii",
     },
     "Beside it": {"label": "Labels", "title": "Title", "scale_bar": "Scale bar", "legend": "Legend"},
-    "View and page": {"perspective": "Perspective: distance of the eye, Å", "width": "Width", "page": "Page"},
+    "View and page": {"perspective": "Eye's distance, Å", "width": "Width", "page": "Page"},
 }  # fmt: skip
 HINTS = {
     "rep": "sticks, or SELECTION=NAME", "color": "resn HEM=crimson", "background": "none, white, #ffe",
-    "select": "chain A and not water", "chain": "A,B", "label": "resn HEM={resn} {resi}", "width": "8cm",
-    "perspective": "none", "outline": "the style's", "crease": "the style's",
+    "select": "chain A or water", "chain": "A,B", "label": "resn HEM={resn} {resi}", "width": "8cm",
+    "perspective": "none: parallel", "outline": "points", "crease": "points",
 }  # fmt: skip
 TURNED = ("view", "orient", "rotate")  # what the pointer does to the view, without a field
 NAMES = (*(name for fields in GROUPS.values() for name in fields if name in USUAL), *TURNED)  # what a page may ask for

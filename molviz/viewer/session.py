@@ -138,7 +138,7 @@ class Session:
             "atoms": len(molecule), "read": loaded.read, "residues": residues, "names": names,
             "selections": _selections(loaded, residue), "rotation": view.rotation.tolist(),
             "center": view.center.tolist(), "distance": view.distance,
-            "warnings": list(dict.fromkeys(loaded.warnings)),
+            "warnings": [one.removeprefix(f"{loaded.source}: ") for one in dict.fromkeys(loaded.warnings)],
         }  # fmt: skip
         numbers = np.column_stack([loaded.spheres.center - view.center, loaded.spheres.radius]).astype("<f4")
         body = [numbers.tobytes(), residue.astype("<u4").tobytes(), name.astype("<u4").tobytes()]

@@ -99,8 +99,8 @@ export class Panel {
    */
   text(field, more) {
     const mode = field.kind === "number" ? "decimal" : "text";
-    const input = element("input", { type: "text", inputmode: mode, placeholder: field.hint, spellcheck: "false",
-      autocomplete: "off", ...more });
+    const input = element("input", { type: "text", inputmode: mode, spellcheck: "false",
+      placeholder: field.hint || String(field.usual ?? ""), autocomplete: "off", ...more });
     const value = () => {
       const text = input.value.trim();
       if (!text) return field.usual;

@@ -60,11 +60,18 @@ export class Stage {
     this.moved(false);
   }
 
+  /** Pixels per Å with which the picture's page, the molecule's centre in the middle, fills the stage. */
+  get filling() {
+    const { width, height, scale, shift } = this.placement;
+    const across = Math.max(shift[0], width - shift[0]) / scale;
+    const up = Math.max(shift[1], height - shift[1]) / scale;
+    const room = [this.camera.width / 2 - PADDING, this.camera.height / 2 - PADDING];
+    return Math.max(Math.min(room[0] / across, room[1] / up), 1e-6);
+  }
+
   /** Let the picture's page fill the stage at zoom 1. */
   refit() {
-    const { width, height, scale } = this.placement;
-    const room = [this.camera.width - 2 * PADDING, this.camera.height - 2 * PADDING];
-    this.camera.fit = Math.max(Math.min((room[0] * scale) / width, (room[1] * scale) / height), 1e-6);
+    this.camera.fit = this.filling;
   }
 
   /**
@@ -154,7 +161,7 @@ export class Stage {
     }
     const isFirst = !this.placement;
     this.placement = placement;
-    if (isFirst) this.refit();
+    if (isFirst || (this.camera.zoom === 1 && this.filling < this.camera.fit)) this.refit();
     this.image.src = address;
     if (before) URL.revokeObjectURL(before);
     this.isExact = true;

@@ -65,7 +65,7 @@ export class Viewer {
     this.command = element("output", { class: "command", tabindex: 0, "aria-label": "The command that draws this" });
     this.undoing = button("Undo", () => this.undo(), { disabled: true });
     this.redoing = button("Redo", () => this.redo(), { disabled: true });
-    this.marked = element("div", { class: "marked", hidden: true });
+    this.marked = element("div", { class: "marked" });
     this.format = element("select", { "aria-label": "Format of the file" },
       ...head.formats.map((/** @type {string} */ name) => element("option", { value: name }, name.toUpperCase())));
     this.fill(head.inputs);
@@ -87,7 +87,7 @@ export class Viewer {
         element("div", { class: "tools", role: "toolbar", "aria-label": "View" },
           ...moves, centering, this.undoing, this.redoing),
         this.told, this.wrong, this.marked, element("p", { class: "help" }, HELP)),
-      element("div", { class: "right" }, this.panel.root, this.saving()));
+      element("div", { class: "right" }, this.saving(), this.panel.root));
   }
 
   listen() {
@@ -382,14 +382,14 @@ export class Viewer {
     const { scene } = this.stage;
     this.stage.marked = residue;
     this.stage.moved(false);
-    this.marked.hidden = residue < 0 || !scene;
+    this.marked.replaceChildren();
     if (residue < 0 || !scene) return;
     const selection = scene.head.selections[residue];
     const color = element("input", { type: "color", value: "#dc143c", "aria-label": "Colour of the residue" });
     const paint = () => this.change({ color: [...this.options.color, `${selection}=${color.value}`] });
     color.addEventListener("change", paint);
     const able = { disabled: !selection };
-    this.marked.replaceChildren(
+    this.marked.append(
       element("strong", { role: "status" }, scene.head.residues[residue] || "all atoms"),
       element("label", {}, "Colour ", color),
       button("Label", () => this.change({ label: [...this.options.label, selection] }), able),
