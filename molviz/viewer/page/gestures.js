@@ -4,6 +4,7 @@
 /**
  * @typedef {object} Heard
  * @property {(turned: boolean) => void} moved after the camera has moved; turned: whether the picture changes with it
+ * @property {() => void} released after a drag
  * @property {(x: number, y: number) => void} hover
  * @property {(x: number, y: number) => void} click
  * @property {(x: number, y: number) => void} center
@@ -157,7 +158,9 @@ export class Gestures {
    * @param {boolean} done
    */
   up(event, done) {
-    if (this.pointers.delete(event.pointerId) && done && this.travelled < CLICK) this.heard.click(...this.place(event));
+    if (!this.pointers.delete(event.pointerId) || !done) return;
+    if (this.travelled < CLICK) this.heard.click(...this.place(event));
+    else if (!this.pointers.size) this.heard.released();
   }
 
   /** @param {WheelEvent} event */

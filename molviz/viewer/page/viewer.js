@@ -11,7 +11,7 @@ import { Stage } from "./stage.js";
 /** @typedef {import("./asking.js").Ask} Ask */
 /** @typedef {Record<string, any>} Options */
 
-const REST = 100; // ms without a movement before the exact picture is asked for
+const REST = 120; // ms without a movement before the exact picture is asked for
 const HELP = "Drag to turn, with Shift to roll, with Alt to move; wheel to scale; double-click to centre; click to "
   + "mark a residue. Keys: arrows turn, Shift+arrows roll, Alt+arrows move, + − scale, 0 fits, N P mark residues, "
   + "C centres, Ctrl+Z undoes.";
@@ -94,6 +94,7 @@ export class Viewer {
     this.root.addEventListener("keydown", (event) => this.key(event));
     return new Gestures(this.stage.root, this.stage.camera, {
       moved: (turned) => this.moved(turned),
+      released: () => this.released(),
       hover: (x, y) => this.hover(x, y),
       click: (x, y) => this.mark(this.residueAt(x, y)),
       center: (x, y) => this.centerAt(x, y),
@@ -210,6 +211,7 @@ export class Viewer {
   /** Return the number of a newer question, and abandon the one before. */
   newer() {
     clearTimeout(this.timer);
+    this.timer = undefined;
     this.asked.abort();
     this.asked = new AbortController();
     this.root.dataset.state = "moving";
@@ -304,10 +306,18 @@ export class Viewer {
     this.timer = setTimeout(() => this.rest(), REST);
   }
 
+  /** Rest at once, if the pointer has turned anything since the last rest. */
+  released() {
+    if (this.timer !== undefined) this.rest();
+  }
+
   /** The view becomes an option, and the picture is asked for. */
   rest() {
+    clearTimeout(this.timer);
+    this.timer = undefined;
     const view = viewText(this.stage.camera.rotation);
-    this.change({ view, rotate: [], orient: "principal" });
+    if (view === this.options.view) this.turnTo(rotationOf(view));
+    else this.change({ view, rotate: [], orient: "principal" });
   }
 
   /** @param {number[]} rotation */
