@@ -150,11 +150,11 @@ def covered(hand: Hand) -> np.ndarray:
 
 def test_the_pointer_names_the_atom_below_it(hand: Hand) -> None:
     hand.page.mouse.move(*hand.middle)
-    hand.page.wait_for_selector(".stage[data-atom]:not([data-atom=''])")
-    assert hand.page.get_attribute(".stage", "data-atom")[0] in "CNOH"
+    hand.page.wait_for_selector(".caption:visible")
+    assert hand.page.inner_text(".caption")[0] in "CNOH"
     box = hand.page.locator(".stage").bounding_box()
     hand.page.mouse.move(box["x"] + 3, box["y"] + 3)
-    hand.page.wait_for_selector(".stage[data-atom='']")
+    hand.page.wait_for_selector(".caption", state="hidden")
 
 
 def test_a_residue_is_marked_coloured_labelled_and_kept_alone(running: Any) -> None:

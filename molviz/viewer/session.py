@@ -215,12 +215,15 @@ class Session:
         if means_several(str(given(options, "model", parse_model))):
             raise OptionError(f"model: {options['model']!r}; expected a number from 1")
         key = number, input_options_from(options)
-        if key not in self._loaded:
-            self._loaded[key] = only_model(loaded_from(self.inputs[number].reading, key[1]))
-        self._loaded.move_to_end(key)
-        while len(self._loaded) > MOST_LOADED:
-            self._loaded.popitem(last=False)
-        return self._loaded[key]
+        with self._lock:
+            kept = self._loaded.get(key)
+        loaded = kept or only_model(loaded_from(self.inputs[number].reading, key[1]))
+        with self._lock:
+            self._loaded[key] = loaded
+            self._loaded.move_to_end(key)
+            while len(self._loaded) > MOST_LOADED:
+                self._loaded.popitem(last=False)
+        return loaded
 
     def _drawing(self, number: int, options: Options) -> Drawing:
         request = draw_request_from(options)

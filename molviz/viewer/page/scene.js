@@ -55,9 +55,13 @@ export class Scene {
     const length = d ? Math.hypot(px, py, d) : 1;
     const ray = d ? [px / length, py / length, -d / length] : [0, 0, -1];
     const [first, second, third] = [0, 3, 6].map((row) => camera.rotation.slice(row, row + 3));
+    const { balls } = this;
     let [best, nearest] = [-1, Infinity];
     for (let k = 0; k < this.count; k++) {
-      const [a, b, c, radius] = this.balls.subarray(4 * k, 4 * k + 4);
+      const a = balls[4 * k];
+      const b = balls[4 * k + 1];
+      const c = balls[4 * k + 2];
+      const radius = balls[4 * k + 3];
       const ox = (d ? 0 : px) - (first[0] * a + first[1] * b + first[2] * c);
       const oy = (d ? 0 : py) - (second[0] * a + second[1] * b + second[2] * c);
       const oz = d - (third[0] * a + third[1] * b + third[2] * c);

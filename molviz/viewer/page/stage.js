@@ -20,8 +20,9 @@ export class Stage {
     this.canvas = element("canvas", { "aria-hidden": "true" });
     this.image = element("img", { alt: "", draggable: "false", hidden: true });
     this.marks = element("canvas", { class: "marks", "aria-hidden": "true" });
+    this.caption = element("span", { class: "caption", "aria-hidden": "true" });
     this.root = element("div", { class: "stage", tabindex: 0, role: "application", "aria-label": "molecule" },
-      this.canvas, this.image, this.marks);
+      this.canvas, this.image, this.marks, this.caption);
     this.renderer = SphereRenderer.on(this.canvas) ?? new DiscRenderer(this.canvas);
     /** @type {Scene | null} */
     this.scene = null;

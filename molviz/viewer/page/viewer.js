@@ -379,8 +379,7 @@ export class Viewer {
     requestAnimationFrame(() => {
       hovered.isPending = false;
       const atom = stage.scene?.atomAt(stage.camera, hovered.x, hovered.y) ?? -1;
-      stage.root.title = atom >= 0 && stage.scene ? stage.scene.called(atom) : "";
-      stage.root.dataset.atom = stage.root.title;
+      stage.caption.textContent = atom >= 0 && stage.scene ? stage.scene.called(atom) : "";
     });
   }
 
