@@ -132,6 +132,7 @@ def assert_frames_lie_on_the_picture(hand: Hand) -> None:
     hand.page.mouse.move(5, 5)
     exact = covered(hand)
     x, y = hand.middle
+    hand.page.route("**/ask", lambda route: None)  # the exact picture shall not come
     hand.page.mouse.move(x, y)
     hand.page.mouse.down()
     hand.page.mouse.move(x + 30, y)
@@ -139,7 +140,7 @@ def assert_frames_lie_on_the_picture(hand: Hand) -> None:
     hand.page.wait_for_selector(".stage canvas:not(.marks):visible")
     time.sleep(0.3)
     moving = covered(hand)
-    hand.page.mouse.up()
+    assert hand.page.locator(".stage img").is_hidden()
     assert 0.2 < exact.mean() < 0.8 and (exact != moving).mean() < 0.01
 
 
@@ -190,6 +191,19 @@ def test_options_are_undone_and_done_again(hand: Hand) -> None:
     hand.after(lambda: hand.page.keyboard.press("Control+y"))
     hand.after(lambda: hand.page.keyboard.press("Control+y"))
     assert hand.command == third
+
+
+def test_one_drag_is_undone_at_once_however_often_it_pauses(hand: Hand) -> None:
+    first = hand.command
+    x, y = hand.middle
+    hand.page.mouse.move(x, y)
+    hand.page.mouse.down()
+    for step in range(1, 4):
+        hand.after(lambda step=step: hand.page.mouse.move(x + 40 * step, y))  # the pointer rests, and is held down
+    hand.page.mouse.up()
+    assert hand.command != first
+    hand.after(lambda: hand.page.get_by_role("button", name="Undo").click())
+    assert hand.command == first and hand.page.get_by_role("button", name="Undo").is_disabled()
 
 
 def test_the_keyboard_alone_suffices(hand: Hand) -> None:

@@ -4,7 +4,8 @@
 /**
  * @typedef {object} Heard
  * @property {(turned: boolean) => void} moved after the camera has moved; turned: whether the picture changes with it
- * @property {() => void} released after a drag
+ * @property {() => void} began before a drag
+ * @property {() => void} released after it
  * @property {(x: number, y: number) => void} hover
  * @property {(x: number, y: number) => void} click
  * @property {(x: number, y: number) => void} center
@@ -94,6 +95,7 @@ export class Gestures {
     this.stage.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, { x, y });
     this.travelled = this.pointers.size > 1 ? Infinity : 0;
+    if (this.pointers.size === 1) this.heard.began();
   }
 
   /** @param {PointerEvent} event */

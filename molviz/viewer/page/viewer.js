@@ -56,6 +56,8 @@ export class Viewer {
     this.asked = new AbortController();
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
+    /** whether the next rest is the first of a drag: one drag is undone at once, however often it paused */
+    this.isFirstRest = true;
     this.hovered = { x: 0, y: 0, isPending: false };
     this.stage = new Stage();
     this.panel = new Panel(head.panel, (name, value) => this.change({ [name]: value }));
@@ -69,7 +71,7 @@ export class Viewer {
     this.format = element("select", { "aria-label": "Format of the file" },
       ...head.formats.map((/** @type {string} */ name) => element("option", { value: name }, name.toUpperCase())));
     this.fill(head.inputs);
-    this.listen();
+    this.gestures = this.listen();
   }
 
   /**
@@ -94,6 +96,7 @@ export class Viewer {
     this.root.addEventListener("keydown", (event) => this.key(event));
     return new Gestures(this.stage.root, this.stage.camera, {
       moved: (turned) => this.moved(turned),
+      began: () => (this.isFirstRest = true),
       released: () => this.released(),
       hover: (x, y) => this.hover(x, y),
       click: (x, y) => this.mark(this.residueAt(x, y)),
@@ -134,13 +137,14 @@ export class Viewer {
   // ---- options
 
   /**
-   * Change options, in a way that can be undone.
+   * Change options, in a way that can be undone; together with the change before unless it is a step of its own.
    * @param {Options} changes
+   * @param {boolean} isStep
    */
-  change(changes) {
+  change(changes, isStep = true) {
     const names = Object.keys(changes);
     if (names.every((name) => JSON.stringify(changes[name]) === JSON.stringify(this.options[name]))) return;
-    this.past.push(this.options);
+    if (isStep) this.past.push(this.options);
     this.future = [];
     this.become({ ...this.options, ...changes });
   }
@@ -309,6 +313,7 @@ export class Viewer {
   /** Rest at once, if the pointer has turned anything since the last rest. */
   released() {
     if (this.timer !== undefined) this.rest();
+    this.isFirstRest = true;
   }
 
   /** The view becomes an option, and the picture is asked for. */
@@ -317,7 +322,8 @@ export class Viewer {
     this.timer = undefined;
     const view = viewText(this.stage.camera.rotation);
     if (view === this.options.view) this.turnTo(rotationOf(view));
-    else this.change({ view, rotate: [], orient: "principal" });
+    else this.change({ view, rotate: [], orient: "principal" }, this.isFirstRest);
+    this.isFirstRest = !this.gestures.pointers.size;
   }
 
   /** @param {number[]} rotation */
