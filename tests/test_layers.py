@@ -17,7 +17,7 @@ STAGES = {  # what each stage may import, besides itself and COMMON
     "picture": {"model", "geometry", "visibility", "discs"},
     "write": {"picture"},
     "pipeline": {"model", "readers", "adapters", "geometry", "visibility", "discs", "picture", "write"},
-    "viewer": {"model", "readers", "picture", "pipeline"},
+    "viewer": {"model", "readers", "geometry", "picture", "pipeline"},
     "cli": {"model", "pipeline", "picture", "viewer"},
 }
 WHEN_ASKED = {("model/molecule.py", "molviz.geometry.bonds")}  # imported by a property, not with the module

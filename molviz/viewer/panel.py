@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from molviz.model.representations import REPRESENTATIONS
 from molviz.picture.palette import PALETTES
 from molviz.picture.style import STYLES
 from molviz.pipeline.state import USUAL
@@ -9,7 +10,8 @@ from molviz.pipeline.values import CHOICES
 
 GROUPS = {  # of the panel, and the options in each with what people read beside them
     "Look": {
-        "style": "Style", "rep": "Representation", "color_by": "Colour by", "palette": "Palette",
+        "style": "Style", "rep": "Representation", "bonds": "Bonds", "stick_radius": "Radius of sticks, Å",
+        "ball_scale": "Scale of balls", "color_by": "Colour by", "palette": "Palette",
         "color": "Colours of selections", "parts": "Regions", "outline": "Outline",
         "crease": "Crease", "background": "Background",
     },
@@ -21,13 +23,13 @@ GROUPS = {  # of the panel, and the options in each with what people read beside
     "View and page": {"perspective": "Eye's distance, Å", "width": "Width", "page": "Page"},
 }  # fmt: skip
 HINTS = {
-    "rep": "sticks, or SELECTION=NAME", "color": "resn HEM=crimson", "background": "none, white, #ffe",
+    "rep": "resn HEM=sticks", "color": "resn HEM=crimson", "background": "none, white, #ffe",
     "select": "chain A or water", "chain": "A,B", "label": "resn HEM={resn} {resi}", "width": "8cm",
     "perspective": "none: parallel", "outline": "points", "crease": "points",
 }  # fmt: skip
 TURNED = ("view", "orient", "rotate")  # what the pointer does to the view, without a field
 NAMES = (*(name for fields in GROUPS.values() for name in fields if name in USUAL), *TURNED)  # what a page may ask for
-NUMBERS = ("outline", "crease", "perspective", "scale_radii")
+NUMBERS = ("outline", "crease", "perspective", "scale_radii", "stick_radius", "ball_scale")
 
 
 def panel() -> list[dict[str, Any]]:
@@ -49,7 +51,7 @@ def _field(name: str, label: str) -> dict[str, Any]:
 
 def choices_of(name: str) -> tuple[str, ...]:
     """Return the values that an option may have where they can be counted, else none."""
-    tables = {"style": ("auto", *STYLES), "palette": PALETTES, **CHOICES}
+    tables = {"style": ("auto", *STYLES), "palette": PALETTES, "rep": REPRESENTATIONS, **CHOICES}
     return tuple(tables.get(name, ()))
 
 

@@ -16,12 +16,16 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.errors import InputError, InternalError, OptionError
+from molviz.geometry.rows import expand
+from molviz.geometry.solids import BallsAndSticks
 from molviz.model.entities import entities_of
 from molviz.model.selection import select
+from molviz.model.spheres import Spheres
 from molviz.pipeline.draw import Drawing, DrawRequest, draw_request_from, subject_of
 from molviz.pipeline.inputs import InputOptions, Loaded, loaded_from, means_several, only_model
 from molviz.pipeline.outputs import stem_of
 from molviz.pipeline.sets import SetOptions, drawn
+from molviz.pipeline.solids import shown, solids_for
 from molviz.pipeline.state import USUAL, checked_state, state_of_text, state_text
 from molviz.pipeline.values import Options, chosen, given, input_options_from, parse_model, view_options_from
 from molviz.pipeline.views import view_of
@@ -30,6 +34,8 @@ from molviz.viewer.command import call_of, command_of, drawn_by
 from molviz.viewer.panel import NAMES, choices_of, panel
 
 MOST_LOADED = 4  # models kept ready: those of the last selections
+BEAD_STEP = 0.7  # of a stick's radius, from bead to bead
+MOST_BEADS = 150_000  # of all sticks
 MOST_PAGES = 64  # whose newest questions are remembered
 FORMATS = ("svg", "pdf", "eps", "ps", "hpgl")
 FILES = ("style", "palette")  # options that may name a file
@@ -125,24 +131,28 @@ class Session:
     def _scene(self, question: Mapping[str, Any]) -> Answer:
         """Spheres, names and colours of what is drawn: enough to turn it without asking again."""
         number, options = self._asked(question)
-        loaded = self._load_model(number, options)
-        view = view_of(loaded.spheres, view_options_from(options))
-        molecule = loaded.molecule
+        request = draw_request_from(options)
+        loaded, representation = shown(self._load_model(number, options), request.solids)
+        solids = solids_for(loaded, representation, request.solids)
+        view, molecule = view_of(loaded.spheres, view_options_from(options)), loaded.molecule
         residue, residues = _numbered([
             " ".join(part for part in parts if part)
             for parts in zip(molecule.residue_name.tolist(), molecule.residue.tolist(), molecule.chain.tolist(),
                              strict=True)
         ])  # fmt: skip
         name, names = _numbered(molecule.atom_name.tolist())
+        balls, atom = _with_beads(solids)
         head = {
-            "atoms": len(molecule), "read": loaded.read, "residues": residues, "names": names,
+            "atoms": len(molecule), "balls": len(atom), "read": loaded.read, "residues": residues, "names": names,
             "selections": _selections(loaded, residue), "rotation": view.rotation.tolist(),
             "center": view.center.tolist(), "distance": view.distance,
-            "warnings": [one.removeprefix(f"{loaded.source}: ") for one in dict.fromkeys(loaded.warnings)],
+            "warnings": [
+                one.removeprefix(f"{loaded.source}: ") for one in dict.fromkeys((*loaded.warnings, *solids.notes))
+            ],
         }  # fmt: skip
-        numbers = np.column_stack([loaded.spheres.center - view.center, loaded.spheres.radius]).astype("<f4")
-        body = [numbers.tobytes(), residue.astype("<u4").tobytes(), name.astype("<u4").tobytes()]
-        return Answer(head, b"".join([*body, _bytes_of(_first_colors(loaded, options))]))
+        numbers = np.column_stack([balls.center - view.center, balls.radius]).astype("<f4")
+        body = [numbers.tobytes(), *(column.astype("<u4").tobytes() for column in (atom, residue, name))]
+        return Answer(head, b"".join([*body, _bytes_of(_first_colors(loaded, request, options["method"]))]))
 
     def _picture(self, question: Mapping[str, Any]) -> Answer:
         """The exact picture as SVG, and before it the colours of its atoms."""
@@ -284,11 +294,26 @@ def _quoted(name: str) -> str:
     return name if name.isalnum() else f'"{name.replace(chr(34), "?")}"'
 
 
-def _first_colors(loaded: Loaded, options: Options) -> Ints:
+def _with_beads(solids: BallsAndSticks) -> tuple[Spheres, Ints]:
+    """Balls, then sticks as strings of beads that nearly look like them while they move; and the atom of each (b,)."""
+    balls, sticks = solids.balls, solids.sticks
+    begin, end = balls.center[sticks.first] + sticks.offset, balls.center[sticks.second] + sticks.offset
+    length = np.linalg.norm(end - begin, axis=1)
+    beads = np.maximum(np.ceil(length / (BEAD_STEP * sticks.radius)), 1).astype(np.int64)
+    if beads.sum() > MOST_BEADS:
+        beads = np.maximum(beads * MOST_BEADS // beads.sum(), 2)
+    stick, place = expand(np.zeros(len(beads), dtype=np.int64), beads)
+    part = (place + 0.5) / beads[stick]
+    center = begin[stick] + part[:, None] * (end - begin)[stick]
+    atom = np.where(part < 0.5, sticks.first[stick], sticks.second[stick])
+    joined = Spheres(np.vstack([balls.center, center]), np.append(balls.radius, sticks.radius[stick]))
+    return joined, np.append(np.arange(len(balls.radius)), atom)
+
+
+def _first_colors(loaded: Loaded, request: DrawRequest, method: str) -> Ints:
     """The colours (n, 3) of all atoms before anything is known of a view: chains that touch have no tints yet."""
-    request: DrawRequest = draw_request_from(options)
     entities = entities_of(loaded.molecule)
-    settled = request.options.settled(entities, options["method"] == "painter")
+    settled = request.options.settled(entities, method == "painter")
     subject = subject_of(loaded, request, settled)
     return subject.colors(settled, np.zeros(len(entities.chain), dtype=np.int64)).fill
 

@@ -11,18 +11,35 @@ export class Scene {
   /** @param {Answer} answer to the question "scene" */
   constructor({ head, body }) {
     const n = head.atoms;
+    const b = head.balls;
     /** @type {(start: number, bytes: number) => ArrayBuffer} */
     const column = (start, bytes) => body.slice(start, start + bytes).buffer;
-    this.count = n;
+    /** how many balls there are: those of the atoms, then the beads of sticks */
+    this.count = b;
     this.head = head;
     /** x, y, z, radius of each */
-    this.balls = new Float32Array(column(0, 16 * n));
-    this.residue = new Uint32Array(column(16 * n, 4 * n));
-    this.name = new Uint32Array(column(20 * n, 4 * n));
-    this.colors = new Uint8Array(column(24 * n, 4 * n));
+    this.balls = new Float32Array(column(0, 16 * b));
+    /** the atom of each */
+    this.atom = new Uint32Array(column(16 * b, 4 * b));
+    this.residue = new Uint32Array(column(20 * b, 4 * n));
+    this.name = new Uint32Array(column(20 * b + 4 * n, 4 * n));
+    /** four bytes for each ball */
+    this.colors = new Uint8Array(4 * b);
+    this.paint(new Uint8Array(column(20 * b + 8 * n, 4 * n)));
     this.reach = 1e-9;
-    for (let k = 0; k < n; k++) {
+    for (let k = 0; k < b; k++) {
       this.reach = Math.max(this.reach, Math.hypot(...this.center(k)) + this.balls[4 * k + 3]);
+    }
+  }
+
+  /**
+   * Give the balls the colours of their atoms, four bytes each.
+   * @param {Uint8Array} colors
+   */
+  paint(colors) {
+    for (let k = 0; k < this.count; k++) {
+      const row = 4 * this.atom[k];
+      for (let channel = 0; channel < 4; channel++) this.colors[4 * k + channel] = colors[row + channel];
     }
   }
 
@@ -71,7 +88,7 @@ export class Scene {
         [best, nearest] = [k, -along - Math.sqrt(inside)];
       }
     }
-    return best;
+    return best < 0 ? best : this.atom[best];
   }
 
   /**
@@ -82,7 +99,7 @@ export class Scene {
   discsOf(camera, residue) {
     const discs = [];
     for (let k = 0; k < this.count; k++) {
-      if (this.residue[k] !== residue) continue;
+      if (this.residue[this.atom[k]] !== residue) continue;
       const point = moved(camera.rotation, this.center(k));
       const near = camera.distance ? camera.distance / (camera.distance - point[2]) : 1;
       discs.push([...camera.place(camera.onPage(point)), this.balls[4 * k + 3] * near * camera.scale]);

@@ -249,8 +249,8 @@ export class Viewer {
     const { head, body } = await this.ask({ ask: "picture", input, options, page, number }, signal);
     if (!isWanted() || head.abandoned) return;
     const { scene, camera } = this.stage;
-    if (scene && head.colors === scene.colors.length) {
-      scene.colors = body.slice(0, head.colors);
+    if (scene && head.colors === 4 * scene.head.atoms) {
+      scene.paint(body.subarray(0, head.colors));
       this.stage.recolored();
     }
     await this.stage.show(head, body.subarray(head.colors), isWanted);
