@@ -313,7 +313,8 @@ def test_every_public_object_is_shown_in_one_line() -> None:
 
 def test_the_names_of_the_package_are_listed_and_explained() -> None:
     names = ["Drawing", "DrawingSet", "Index", "InputError", "InternalError", "Measure", "Molecule", "Reading",
-             "Scene", "Surface", "View", "Visible", "draw", "measure", "read", "surface", "view", "visible"]  # fmt: skip
+             "Scene", "Surface", "View", "Visible", "draw", "measure", "read", "surface", "view",
+             "visible"]  # fmt: skip
     assert dir(molviz) == names
     text = pydoc.plain(pydoc.render_doc(molviz))
     for name in names:

@@ -17,7 +17,8 @@ GROUPS = {  # of the panel, and the options in each with what people read beside
     },
     "Atoms": {
         "select": "Selection", "chain": "Chains", "water": "Water", "no_hydrogens": "Leave out hydrogens",
-        "model": "Model", "scale_radii": "Scale of radii",
+        "model": "Model", "scale_radii": "Scale of radii", "surface": "Surface", "probe": "Probe, Å",
+        "cavities": "Only what lines a cavity",
     },
     "Beside it": {"label": "Labels", "title": "Title", "scale_bar": "Scale bar", "legend": "Legend"},
     "View and page": {"perspective": "Eye's distance, Å", "width": "Width", "page": "Page"},
@@ -29,7 +30,7 @@ HINTS = {
 }  # fmt: skip
 TURNED = ("view", "orient", "rotate")  # what the pointer does to the view, without a field
 NAMES = (*(name for fields in GROUPS.values() for name in fields if name in USUAL), *TURNED)  # what a page may ask for
-NUMBERS = ("outline", "crease", "perspective", "scale_radii", "stick_radius", "ball_scale")
+NUMBERS = ("outline", "crease", "perspective", "scale_radii", "probe", "stick_radius", "ball_scale")
 
 
 def panel() -> list[dict[str, Any]]:
