@@ -78,7 +78,7 @@ def test_sticks_and_hidden_atoms(running: Any, tmp_path: Path) -> None:
         assert hand.page.inner_text(".told").startswith("131 atoms")
         hand.page.fill("[name=outline]", "0")
         hand.after(lambda: hand.page.select_option("[name=style]", "flat"))
-        assert_frames_lie_on_the_picture(hand, least=0.02)  # strings of beads are nearly sticks
+        assert_frames_lie_on_the_picture(hand, least=0.05, most=0.02)  # nearly all of thin sticks is edge
         hand.page.close()
     with served(str(SAMPLES / "1hpv.pdb.gz"), "--rep", "all=hide", "--rep", "resn 478=sticks") as (_, address):
         hand = Hand(running, address)
@@ -143,7 +143,7 @@ def test_without_webgl_there_are_discs(start: Any) -> None:
         hand.page.close()
 
 
-def assert_frames_lie_on_the_picture(hand: Hand, least: float = 0.2) -> None:
+def assert_frames_lie_on_the_picture(hand: Hand, least: float = 0.2, most: float = 0.01) -> None:
     hand.after(lambda: hand.drag(30, 30))
     hand.page.mouse.move(5, 5)
     exact = covered(hand)
@@ -157,7 +157,7 @@ def assert_frames_lie_on_the_picture(hand: Hand, least: float = 0.2) -> None:
     time.sleep(0.3)
     moving = covered(hand)
     assert hand.page.locator(".stage img").is_hidden()
-    assert least < exact.mean() < 0.8 and (exact != moving).mean() < 0.01
+    assert least < exact.mean() < 0.8 and (exact != moving).mean() < most
 
 
 def covered(hand: Hand) -> np.ndarray:
