@@ -14,7 +14,7 @@ SOAK ?=
 PAPER := --background white
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check pictures gallery bench tables figures fuzz soak numpies clean
+.PHONY: help demo test check page pictures gallery bench tables figures fuzz soak numpies clean
 
 help: ## show this help
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -44,6 +44,12 @@ check: $(VENV)/developed ## linter and type checker
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
+page: node_modules/.package-lock.json ## types and rules of the browser page's modules (needs npm)
+	npm run --silent check
+
+node_modules/.package-lock.json: package.json
+	npm install --silent --no-audit --no-fund --no-package-lock
+
 pictures: $(PICTURES) ## draw every sample to SVG and PS, only what changed (make -j2 pictures)
 
 define picture_rules
@@ -52,7 +58,7 @@ pictures/$(basename $(notdir $(1:.gz=))).svg pictures/$(basename $(notdir $(1:.g
 endef
 $(foreach sample,$(SAMPLES),$(eval $(call picture_rules,$(sample))))
 
-gallery: $(VENV)/installed ## redraw the README's pictures into docs/
+gallery: $(VENV)/developed ## redraw the README's pictures into docs/
 	$(MOLVIZ) draw samples/1tii.pdb.gz --rotate y,-60 --width 14cm -o docs/goodsell.svg
 	$(MOLVIZ) draw samples/caffeine.xyz --width 8cm -o docs/cel.svg
 	$(MOLVIZ) draw samples/nacl.extxyz --style shaded --perspective 40 --rotate y,30 --rotate x,20 --width 8cm \
@@ -69,6 +75,7 @@ gallery: $(VENV)/installed ## redraw the README's pictures into docs/
 	$(MOLVIZ) draw samples/c60.xyz --style hatch --perspective 15 --width 8cm $(PAPER) -o docs/hatch.svg
 	$(MOLVIZ) draw samples/1a1f.pdb --style line --width 8cm $(PAPER) -o docs/line.svg
 	$(MOLVIZ) hidden-lines --random 1000 --shrink --radius 0.135 $(PAPER) -o docs/gas.svg
+	$(BIN)/python benchmarks/view_screenshot.py samples/1tii.pdb.gz -o docs/view.png
 
 bench: $(VENV)/benched ## measure run times, sizes and peers (nothing is asserted)
 	$(BIN)/python benchmarks/draw_bench.py
@@ -76,6 +83,7 @@ bench: $(VENV)/benched ## measure run times, sizes and peers (nothing is asserte
 	$(BIN)/python benchmarks/measure_bench.py
 	$(BIN)/python benchmarks/surface_bench.py
 	$(BIN)/python benchmarks/query_bench.py
+	$(BIN)/python benchmarks/view_bench.py
 
 tables: $(VENV)/installed ## Franklin's Tables 1 to 3 beside ours
 	$(BIN)/python benchmarks/franklin_tables.py

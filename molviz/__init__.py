@@ -10,7 +10,8 @@
 A file becomes a ``Molecule`` (``read``), a molecule spheres, spheres a union boundary, the boundary what the eye
 sees (``visible``, ``Scene``) or what is known of it (``measure``, ``surface``), and what the eye sees a picture in one
 of many formats (``draw``). Each of them takes a path, a molecule, arrays of centers and radii, or an object of ASE,
-gemmi, biotite, MDAnalysis or RDKit. What is wrong raises ``InputError``, a ValueError; what is odd is a warning.
+gemmi, biotite, MDAnalysis or RDKit, and so does ``view``, a widget for notebooks. What is wrong raises ``InputError``,
+a ValueError; what is odd is a warning.
 """
 
 TYPE_CHECKING = False  # as typing's: importing that costs more than all else here
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from molviz.pipeline.surface import Surface
     from molviz.pipeline.visible import Visible
     from molviz.readers import Reading, read
+    from molviz.viewer.notebook import view
     from molviz.visibility.view import View
 
 _HOMES = {  # imported when first used: start-up time counts
@@ -45,11 +47,12 @@ _HOMES = {  # imported when first used: start-up time counts
     "measure": "molviz.pipeline.door",
     "read": "molviz.readers",
     "surface": "molviz.pipeline.door",
+    "view": "molviz.viewer.notebook",
     "visible": "molviz.pipeline.door",
 }
 __all__ = [
     "Drawing", "DrawingSet", "Index", "InputError", "InternalError", "Measure", "Molecule", "Reading", "Scene",
-    "Surface", "View", "Visible", "draw", "measure", "read", "surface", "visible",
+    "Surface", "View", "Visible", "draw", "measure", "read", "surface", "view", "visible",
 ]  # fmt: skip
 
 

@@ -9,14 +9,18 @@ if sys.version_info >= (3, 11):
 else:
     from tomli import loads
 
-__all__ = ["loads", "read"]
+__all__ = ["loads", "parse", "read"]
 MOST_DEPTH = 16  # of tables and lists in each other; nothing here has more than three
 LARGEST_INTEGER = 2**63  # as TOML has it: larger ones have no decimal digits to be shown with
 
 
 def read(path: Path) -> dict[str, Any]:
     """Return the table in a file; raises OSError where it cannot be read, and ValueError for what is no plain TOML."""
-    text = path.read_text(encoding="utf-8")
+    return parse(path.read_text(encoding="utf-8"))
+
+
+def parse(text: str) -> dict[str, Any]:
+    """Return the table of a text; raises ValueError for what is no plain TOML."""
     try:
         table = loads(text)
     except RecursionError:

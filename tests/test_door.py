@@ -62,6 +62,7 @@ NOT_IN_PYTHON = {
     "to": "to(format) says what",
     "format_": "read(path, format=…) says what a file is; standard input is the command line's",
     "unpack_all": "read(path, unpack_all=True) reads such an archive",
+    "show": "a notebook shows a drawing by itself",
     "quiet": "Python's warning filters do it",
     "strict": "Python's warning filters do it",
     "plotter": "of one format: to('hpgl', plotter=…), save(path, plotter=…)",
@@ -314,7 +315,8 @@ def test_every_public_object_is_shown_in_one_line() -> None:
 
 def test_the_names_of_the_package_are_listed_and_explained() -> None:
     names = ["Drawing", "DrawingSet", "Index", "InputError", "InternalError", "Measure", "Molecule", "Reading",
-             "Scene", "Surface", "View", "Visible", "draw", "measure", "read", "surface", "visible"]  # fmt: skip
+             "Scene", "Surface", "View", "Visible", "draw", "measure", "read", "surface", "view",
+             "visible"]  # fmt: skip
     assert dir(molviz) == names
     text = pydoc.plain(pydoc.render_doc(molviz))
     for name in names:

@@ -17,7 +17,8 @@ STAGES = {  # what each stage may import, besides itself and COMMON
     "picture": {"model", "geometry", "visibility", "discs"},
     "write": {"picture"},
     "pipeline": {"model", "readers", "adapters", "geometry", "visibility", "discs", "picture", "write"},
-    "cli": {"model", "pipeline", "picture"},
+    "viewer": {"model", "readers", "geometry", "picture", "pipeline"},
+    "cli": {"model", "pipeline", "picture", "viewer"},
 }
 WHEN_ASKED = {("model/molecule.py", "molviz.geometry.bonds")}  # imported by a property, not with the module
 HOMES = {
@@ -26,6 +27,13 @@ HOMES = {
     "svgwrite": {"write"},
     "pydyf": {"write"},
     "fontTools": {"write"},
+    "starlette": {"viewer"},
+    "uvicorn": {"viewer"},
+    "anywidget": {"viewer"},
+    "traitlets": {"viewer"},
+    "resvg_py": {"viewer"},
+    "rich": {"viewer"},
+    "textual_image": {"viewer"},
 }
 FILES = sorted(path for path in PACKAGE.rglob("*.py") if path.parent != PACKAGE or path.stem in STAGES)
 

@@ -9,6 +9,7 @@ from pathlib import PurePath
 from typing import Any, NamedTuple
 
 import click
+from click.core import ParameterSource
 
 from molviz.cli.batch import for_each, where_from
 from molviz.cli.main import TYPED
@@ -33,8 +34,10 @@ from molviz.pipeline.draw import Drawing, DrawRequest, draw_request_from, suffix
 from molviz.pipeline.inputs import InputOptions
 from molviz.pipeline.outputs import makes_folder, refuse_inputs, save, target_of
 from molviz.pipeline.sets import ONE_EACH, DrawingSet, SetOptions, drawn, holds_set, set_options_from
+from molviz.pipeline.state import with_state
 from molviz.pipeline.values import input_options_from, parse_count, parse_scale_bar, view_options_from
 from molviz.pipeline.views import ViewOptions
+from molviz.viewer.terminal import UNABLE, show
 
 PLACES = ("-o", "--output", "--to", "-j", "--jobs", "--dask")  # options that say where the result goes, who makes it
 STAGES = 3  # reading, what is seen, writing
@@ -46,7 +49,7 @@ output_options = applied(
     click.option("-o", "--output", metavar="FILE", help="Its suffix is the format; many: a folder or {stem}."),
     click.option("--to", metavar="FORMAT", help="Format (svg, ps, …) where the output is - or a folder."),
 )
-drawing_options = applied(
+look_options = applied(
     shared("method", show_default=True),
     shared("check", help="Verify the invariants of the visibility map first."),
     shared("rep", multiple=True, metavar="[SELECTION=]NAME", help=f"{', '.join(REPRESENTATIONS)}; repeatable."),
@@ -69,10 +72,13 @@ drawing_options = applied(
     shared("cavities", help="Only the balls that line a cavity (of --probe, 1.4 Å unless given; of vdw, 0)."),
     shared("water", help="Draw water, which is left out otherwise if there is anything else."),
     eye_options,
-    shared("turntable", type=COUNT, metavar="N", help="N views about the y axis: {n} in FILE, pages, animation."),
-    shared("stereo", help="Two views beside each other, for eyes that look straight ahead or that cross."),
     page_options,
 )
+set_options = applied(
+    shared("turntable", type=COUNT, metavar="N", help="N views about the y axis: {n} in FILE, pages, animation."),
+    shared("stereo", help="Two views beside each other, for eyes that look straight ahead or that cross."),
+)
+drawing_options = applied(look_options, set_options)
 plotter_options = applied(
     click.option("--plotter", default="", metavar="MODEL", help="Plotter for .hpgl (default hp7475a)."),
     click.option("--paper", default="", metavar="SIZE", help="Paper in the plotter (default a4)."),
@@ -84,7 +90,9 @@ plotter_options = applied(
 @output_options
 @drawing_options
 @shared("fill", help="Regions filled or not (default: the style's).")
+@shared("view_from", metavar="FILE", help="Options that the page of molviz view saved; those typed beside it win.")
 @plotter_options
+@click.option("--show", is_flag=True, help="A small preview in a terminal that can show pictures; needs no -o.")
 @click.option("--json", "as_json", is_flag=True, help="The summary as one JSON object a line on standard output.")
 @input_options
 @batch_options
@@ -105,22 +113,31 @@ def draw_command(inputs: tuple[str, ...], **options: Any) -> None:
 
 def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     """Draw every input with the options of ``draw``."""
+    options = with_state(options, stated())
     look, together = draw_request_from(options), set_options_from(options)
     wanted, eye = input_options_from(options), view_options_from(options)
-    suffix, output = suffix_of(options["output"], options["to"]), options["output"] or "-"
+    suffix, output = format_and_output(options)
     refuse_shared_targets(inputs, output, suffix, options)
-    if options.get("as_json") and output == "-":
-        raise click.UsageError("--json and the picture cannot both go to standard output; expected -o FILE")
+    printed = "--json" if options.get("as_json") else "--show" if options.get("show") else ""
+    if printed and output == "-":
+        raise click.UsageError(f"{printed} and the picture cannot both go to standard output; expected -o FILE")
     if together.many and not holds_set(output, suffix):
         raise click.UsageError(f"{suffix} holds one picture; {ONE_EACH}")
 
     task = DrawTask(
         wanted, look, eye, together, output, suffix, options["plotter"], options["paper"], options["method"],
         options["check"], options["quiet"], options["strict"], {source: drawn_by(source) for source in inputs},
-        read_by(options), len(inputs) == 1,
+        read_by(options), len(inputs) == 1, bool(options.get("show")),
     )  # fmt: skip
     for_each(inputs, task, _tell_json if options.get("as_json") else _tell(options["quiet"]), where_from(options),
              options["quiet"])
+
+
+def format_and_output(options: dict[str, Any]) -> tuple[str, str]:
+    """Return the format and where it goes: a name, - for standard output, or "" where the picture is only shown."""
+    if options.get("show") and not options["output"] and not options["to"]:
+        return ".svg", ""
+    return suffix_of(options["output"], options["to"]), options["output"] or "-"
 
 
 def drawn_by(source: str) -> str:
@@ -129,7 +146,8 @@ def drawn_by(source: str) -> str:
     kept: list[str] = []
     for before, word in zip(["", *typed], typed, strict=False):
         named = word.partition("=")[0]
-        if before not in PLACES and named not in (*PLACES, "--quiet", "--strict", "--json") and named[:2] != "-j":
+        unnamed = before not in PLACES and named[:2] != "-j"
+        if unnamed and named not in (*PLACES, "--quiet", "--strict", "--json", "--show"):
             kept.append(word)
     inputs = click.get_current_context().params.get("inputs", ())
     options = [word for word in kept[1:] if word not in inputs]
@@ -139,7 +157,14 @@ def drawn_by(source: str) -> str:
 def read_by(options: dict[str, Any]) -> tuple[str, ...]:
     """Return the names of all files that a command reads: its inputs, and what its options name."""
     inputs = click.get_current_context().params.get("inputs", ())
-    return (*inputs, *(options[name] for name in ("style", "palette", "radii")))
+    named = (options.get(name) for name in ("style", "palette", "radii", "view_from"))
+    return (*inputs, *(str(name) for name in named if name))
+
+
+def stated() -> list[str]:
+    """Return the names of the options that were typed."""
+    context = click.get_current_context()
+    return [name for name in context.params if context.get_parameter_source(name) is not ParameterSource.DEFAULT]
 
 
 def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str, options: dict[str, Any]) -> None:
@@ -148,6 +173,8 @@ def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str, opt
     for source in inputs:
         target = target_of(source, output, suffix)
         refuse_inputs(target, read_by(options))
+        if not target:
+            continue
         if target in drawn_from and target != output:
             both = f"{drawn_from[target]} and {source}"
             raise click.UsageError(f"{both} would both be drawn to {target}; expected inputs of different names")
@@ -175,6 +202,7 @@ class DrawTask:
     described: dict[str, str]  # for each input, the command that draws it
     read: tuple[str, ...]  # names of all files that the command reads
     alone: bool  # the only input, whose stages are shown
+    shown: bool  # in the terminal as well
 
     def __call__(self, source: str) -> "Drawn":
         """Draw one input and return what there is to tell of it."""
@@ -187,13 +215,15 @@ class DrawTask:
             drawing = drawn(models, look, self.eye, self.together, self.method, self.check)
             warn(drawing.notes, self.quiet, self.strict)
             progress("writing")
-            target = target_of(source, self.output, self.suffix)
-            size = self.saved(drawing, target)
+            target = target_of(source, self.output, self.suffix) if self.output else ""
+            size = self.saved(drawing, target) if target else 0
         finally:
             progress.close()
+        if self.shown:
+            warn(() if show(drawing.svg()) else [UNABLE], self.quiet, self.strict)
         pictures = len(drawing) if isinstance(drawing, DrawingSet) else None
         counts = (drawing.atoms_read, drawing.atoms_drawn, drawing.visible, drawing.arcs)
-        return Drawn(source, target, pictures, *counts, size, time.monotonic() - began)
+        return Drawn(source, target or "terminal", pictures, *counts, size, time.monotonic() - began)
 
     def saved(self, drawing: Drawing | DrawingSet, target: str) -> int:
         """Write all files of a drawing and return how many bytes they have."""

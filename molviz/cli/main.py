@@ -23,6 +23,7 @@ COMMANDS = {  # name → module:object, imported when first used
     "surface": "molviz.cli.surface:surface_command",
     "clash": "molviz.cli.clash:clash_command",
     "info": "molviz.cli.info:info_command",
+    "view": "molviz.cli.view:view_command",
     "styles": "molviz.cli.styles:styles_command",
     "radii": "molviz.cli.radii:radii_command",
     "help": "molviz.cli.help:help_command",

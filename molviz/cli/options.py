@@ -2,21 +2,21 @@
 
 import sys
 from collections.abc import Callable, Iterable
-from inspect import signature
 from typing import Any, TypeAlias
 
 import click
 
 from molviz.cli.telling import say
 from molviz.errors import InputError
-from molviz.pipeline import door
 from molviz.pipeline.inputs import FORMATS, InputOptions, Loaded, load
+from molviz.pipeline.state import USUAL
 from molviz.pipeline.values import (
     CHOICES,
     parse_background,
     parse_distance,
     parse_margin,
     parse_not_negative,
+    parse_orientation,
     parse_positive,
     parse_rotation,
     parse_width,
@@ -43,12 +43,12 @@ class Parsed(click.ParamType[Any]):
 
 LENGTH = Parsed("length", parse_width)
 MARGIN = Parsed("length", parse_margin)
+ORIENTATION = Parsed("w,x,y,z", parse_orientation)
 ROTATION = Parsed("axis,degrees", parse_rotation)
 BACKGROUND = Parsed("color", parse_background)
 DISTANCE = Parsed("number", parse_distance)
 POSITIVE = Parsed("number", parse_positive)
 NOT_NEGATIVE = Parsed("number", parse_not_negative)
-USUAL = {name: parameter.default for name, parameter in signature(door.draw).parameters.items()}
 
 
 def shared(name: str, **more: Any) -> Decorator:
@@ -115,6 +115,7 @@ eye_options = applied(
         show_default=True,
         help="Starting orientation: principal axes, widest side across, or as in the file.",
     ),
+    shared("view", type=ORIENTATION, help="Instead: the quaternion that turns the file's axes into the page's."),
     shared("rotate", type=ROTATION, multiple=True, help="Then turn about an axis of the page; repeatable."),
     shared("perspective", type=DISTANCE, metavar="DISTANCE", help="Central projection; eye's distance in Å."),
 )

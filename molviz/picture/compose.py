@@ -31,6 +31,7 @@ from molviz.picture.looks import (
 from molviz.picture.marks import bond_marks, marks, region_mark
 from molviz.picture.oklab import colors_of, lightness, mix
 from molviz.picture.options import Alike, DrawOptions, Subject
+from molviz.picture.page import Placement
 from molviz.picture.picture import (
     SPREAD,
     Color,
@@ -389,6 +390,17 @@ def alike_with(seen: VisibilityMap | Pieces, view: View, subject: Subject, optio
     composer = MapComposer(seen, view, subject, options)
     tint = dict(zip(subject.entities.chain.tolist(), composer.shown_tints.tolist(), strict=True))
     return Alike(composer.furnished.free, depths(seen, view, composer.seen), tint, subject.bounds)
+
+
+def placed_and_colored(
+    seen: VisibilityMap | Pieces, view: View, subject: Subject, options: DrawOptions
+) -> tuple[Placement, Ints]:
+    """Return where a drawing lies on its page, and what each atom (n, 3) is filled with before fog."""
+    if isinstance(seen, Pieces):
+        return _around_pieces(subject, options).placement, _plain_fill(subject, options)
+    composer = MapComposer(seen, view, subject, options)
+    tint = composer.tints if options.color_by == "entity" else composer.no_tints
+    return composer.placement, subject.colors(options, tint).fill
 
 
 def _file_order(molecule: Molecule) -> Ints:

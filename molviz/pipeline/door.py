@@ -48,10 +48,12 @@ def draw(
     crease: float | None = None,
     background: str | Sequence[int] | None = "none",
     orient: str = "principal",
+    view: str | Sequence[float] | None = None,
     rotate: str | Sequence[str | tuple[str, float]] = (),
     perspective: float | None = None,
     turntable: int | None = None,
     stereo: str | None = None,
+    view_from: str | os.PathLike[str] | None = None,
     width: float | str | None = None,
     scale: float | None = None,
     margin: float | str | None = None,
@@ -87,8 +89,11 @@ def draw(
       True), ``title``, ``legend``;
     * which balls: ``surface`` "vdw" or "accessible" (enlarged by ``probe``, 1.4 Å if none is given), ``cavities`` (only
       those that line a cavity, found with the same probe; with none for "vdw");
-    * the view: ``orient`` "principal" or "file", ``rotate`` ("x,30", or [("x", 30), ("y", 10)] in degrees),
-      ``perspective`` (the eye's distance in ångström), ``stereo`` "wall" or "cross" (two beside each other);
+    * the view: ``orient`` "principal" or "file", or any orientation as ``view``, the quaternion w, x, y, z that turns
+      the file's axes into the page's ("0.5,0.5,0.5,0.5", or four numbers); ``rotate`` ("x,30", or [("x", 30),
+      ("y", 10)] in degrees), ``perspective`` (the eye's distance in ångström), ``stereo`` "wall" or "cross" (two
+      beside each other), ``view_from`` (a file that ``molviz view`` saved: its options hold wherever the call leaves
+      the usual one);
     * a set of pictures, a ``DrawingSet``: ``turntable`` (so many views around the page's y axis), or ``model`` "2-4"
       or "all";
     * the page: ``width`` ("8cm", or points), ``scale`` (points per ångström), ``margin``, ``page`` "fit", "a4" or
@@ -102,12 +107,14 @@ def draw(
     options = dict(locals())
     from molviz.pipeline.draw import draw_request_from
     from molviz.pipeline.sets import drawn, set_options_from
+    from molviz.pipeline.state import USUAL, with_state
     from molviz.pipeline.values import chosen, view_options_from
 
+    options = with_state(options, [name for name in USUAL if options[name] is not USUAL[name]])
     look, view_options, together = draw_request_from(options), view_options_from(options), set_options_from(options)
     loaded = load_models(x, options)
     tell((warning for one in loaded for warning in one.warnings), stacklevel=3)
-    drawing = drawn(loaded, look, view_options, together, chosen(options, "method"), check)
+    drawing = drawn(loaded, look, view_options, together, chosen(options, "method"), options["check"])
     tell(drawing.notes, stacklevel=3)
     return drawing
 

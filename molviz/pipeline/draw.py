@@ -9,15 +9,16 @@ from pathlib import PurePath
 
 import numpy as np
 
-from molviz.arrays import Floats
+from molviz.arrays import Floats, Ints
 from molviz.errors import InputError
 from molviz.geometry.measure import measure_spheres
 from molviz.geometry.solids import BallsAndSticks
 from molviz.model.entities import entities_of
 from molviz.model.molecule import Molecule
 from molviz.model.selection import NO_ATOMS, check_selection, select
-from molviz.picture.compose import alike_with, picture_of_map, picture_of_pieces
+from molviz.picture.compose import alike_with, picture_of_map, picture_of_pieces, placed_and_colored
 from molviz.picture.options import Alike, DrawOptions, Labelled, Painted, Subject
+from molviz.picture.page import Placement
 from molviz.picture.palette import load_palette
 from molviz.picture.picture import Color, Picture
 from molviz.picture.style import load_style
@@ -155,6 +156,15 @@ class Drawing:
     def picture(self, suffix: str) -> Picture:
         """Return the drawing as layers on a page, as the format of a suffix can show them."""
         return self._pen_picture if suffix == ".hpgl" else self._picture
+
+    @property
+    def view(self) -> View:
+        """Where the eye is."""
+        return self._view
+
+    def placed_and_colored(self) -> tuple[Placement, Ints]:
+        """Return where the drawing lies on its page, and what each atom (n, 3) is filled with before fog."""
+        return placed_and_colored(self._seen, self._view, self.subject, self._options)
 
     def alike(self) -> Alike:
         """Return what the pictures of a set would share if all were like this one."""

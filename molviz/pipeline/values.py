@@ -4,6 +4,7 @@ Every parser takes the text (``"8cm"``, ``"x,30"``, ``"#fff"``) as well as the v
 ValueError for anything else; ``…_from`` take all options by name and raise OptionError naming the one that is wrong.
 """
 
+import math
 import re
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
@@ -18,7 +19,7 @@ from molviz.picture.furniture import ROUND
 from molviz.picture.page import PAPER, Page, parse_length
 from molviz.picture.picture import Color
 from molviz.pipeline.inputs import LONGEST, SHORTEST, WATER_RADIUS, InputOptions
-from molviz.pipeline.views import ViewOptions
+from molviz.pipeline.views import Quaternion, ViewOptions
 
 Options = Mapping[str, Any]
 T = TypeVar("T")
@@ -114,6 +115,17 @@ def parse_rotations(value: Any) -> tuple[tuple[str, float], ...]:
     """Return one rotation or several, in the order in which they are made."""
     several = isinstance(value, tuple | list) and not (len(value) == 2 and value[0] in ("x", "y", "z"))
     return tuple(map(parse_rotation, value if several else [value]))
+
+
+def parse_orientation(value: Any) -> Quaternion:
+    """Return the quaternion ``"w,x,y,z"`` or ``(w, x, y, z)``, of any length but 0, number by number as it is."""
+    try:
+        w, x, y, z = (float(part) for part in (value.split(",") if isinstance(value, str) else value))
+    except (TypeError, ValueError):
+        raise ValueError(f"{value!r} is no orientation; expected four numbers w,x,y,z") from None
+    if not SMALLEST <= math.hypot(w, x, y, z) <= LARGEST:
+        raise ValueError(f"{value!r} is no orientation; expected numbers that are not all 0, for example 1,0,0,0")
+    return w, x, y, z
 
 
 def parse_background(value: Any) -> Color | None:
@@ -251,6 +263,7 @@ def view_options_from(options: Options) -> ViewOptions:
         orient=chosen(options, "orient"),
         rotations=given(options, "rotate", parse_rotations) or (),
         distance=given(options, "perspective", parse_distance),
+        orientation=given(options, "view", parse_orientation),
     )
 
 

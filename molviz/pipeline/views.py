@@ -1,12 +1,17 @@
 """Where the eye is: the user's options, or a view of their own, become a view of one model."""
 
+import math
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
+from molviz.arrays import Floats
 from molviz.errors import InputError
 from molviz.model.spheres import Spheres
-from molviz.visibility.view import View, file_axes, principal_axes
+from molviz.visibility.view import View, file_axes, middle, principal_axes
+
+Quaternion: TypeAlias = tuple[float, float, float, float]  # w, x, y, z; from the file's axes to the page's
 
 ORTHOGONAL = 1e-6  # by which the rows of a rotation may miss being unit vectors at right angles
 
@@ -18,15 +23,29 @@ class ViewOptions:
     orient: str = "principal"
     rotations: tuple[tuple[str, float], ...] = ()  # axis of the page, degrees
     distance: float | None = None  # ångström from the centre, None for a parallel view
+    orientation: Quaternion | None = None  # instead of ``orient``
 
 
 def view_of(spheres: Spheres, view_options: ViewOptions) -> View:
     """Return the view that the user's options mean for one model."""
-    axes = principal_axes if view_options.orient == "principal" else file_axes
-    view = axes(spheres, view_options.distance)
+    view = _beginning(spheres, view_options)
     for axis, degrees in view_options.rotations:
         view = view.rotated(axis, degrees)
     return view
+
+
+def _beginning(spheres: Spheres, view_options: ViewOptions) -> View:
+    if view_options.orientation is not None:
+        return View(rotation_of(view_options.orientation), middle(spheres), view_options.distance)
+    axes = principal_axes if view_options.orient == "principal" else file_axes
+    return axes(spheres, view_options.distance)
+
+
+def rotation_of(quaternion: Quaternion) -> Floats:
+    """Return the rotation (3, 3) of a quaternion, made as long as 1: ``v + 2 w (q × v) + 2 q × (q × v)``."""
+    w, x, y, z = np.array(quaternion) / math.hypot(*quaternion)
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + 2 * w * cross + 2 * cross @ cross)
 
 
 def checked_view(view: object, spheres: Spheres) -> View:
