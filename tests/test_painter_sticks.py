@@ -23,6 +23,7 @@ from molviz.picture.options import DrawOptions, Subject
 from molviz.picture.page import Page
 from molviz.picture.palette import load_palette
 from molviz.picture.picture import Picture, StackedLayer
+from molviz.visibility.curves import LINE
 from molviz.visibility.eye import eye_coordinates, projection_of
 from molviz.visibility.painter import Pieces
 from molviz.visibility.scene import Scene, extent
@@ -209,6 +210,14 @@ def test_lines_and_rims_are_drawn_but_no_borders_and_seams() -> None:
     assert np.diff(outline.paths.shape_start).tolist() == [1, 2, 2, 2, 2, 1]
     (stack,) = painted_picture(Spheres(spheres.center, np.full(2, 0.2)), sticks, View(*SIDE), crease=1.0).layers
     assert isinstance(stack, StackedLayer) and len(stack.strokes[0].paths.arcs.start) == 0
+
+
+def test_strokes_of_lines_run_on_over_the_borders_of_parts() -> None:
+    spheres = Spheres(np.array([[0.0, 0, 0], [3, 0, 1]]), np.array([0.4, 0.4]))
+    found = pieces_of(spheres, View(*SIDE), plain_sticks(np.array([[0, 1]]), np.array([0.2])))
+    line = found.curves.kind[found.curve_arcs.curve] == LINE
+    more = found.strokes.sweep - found.arcs.sweep
+    assert line.sum() == 8 and (more[line] > 0.09).all() and not more[~line].any()
 
 
 def test_spheres_alone_are_their_own_pieces() -> None:

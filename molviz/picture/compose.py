@@ -407,7 +407,7 @@ def picture_of_pieces(pieces: Pieces, subject: Subject, options: DrawOptions) ->
     """Return the drawing of painter's pieces, back to front, each with the strokes of its own edges; fills are flat."""
     fill, around = _plain_fill(subject, options), _around_pieces(subject, options)
     placement, widths = around.placement, widths_of(options, around.placement.scale)
-    arcs = pieces.arcs.moved(placement.scale, placement.shift)
+    arcs, drawn = (arcs.moved(placement.scale, placement.shift) for arcs in (pieces.arcs, pieces.strokes))
     rank = np.full(len(pieces.owner), -1)
     rank[pieces.order] = np.arange(len(pieces.order))
     order = np.argsort(rank[pieces.loops.face], kind="stable")
@@ -420,7 +420,7 @@ def picture_of_pieces(pieces: Pieces, subject: Subject, options: DrawOptions) ->
     edge = chains.half_edge >> 1
     lines = (("crease", pieces.is_crease(), widths[1]), ("outline", pieces.is_contour(), widths[0]))
     strokes = [
-        _strokes_of_pieces(name, pieces, arcs, edge[wanted[edge]], edge_shape[wanted[edge]], width, options)
+        _strokes_of_pieces(name, pieces, drawn, edge[wanted[edge]], edge_shape[wanted[edge]], width, options)
         for name, wanted, width in lines
         if width > 0
     ]

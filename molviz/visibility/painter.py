@@ -15,21 +15,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Ints
+from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.geometry.boundary import Boundary, inside_ball
 from molviz.geometry.planar_map import UNUSED, Loops, PlanarMap, loops, planar_map
 from molviz.geometry.rows import expand
-from molviz.visibility.curves import Curves
+from molviz.visibility.curves import LINE, Curves
 from molviz.visibility.junctions import CurveArcs
 from molviz.visibility.named_arcs import Hidden, NamedArcs, joined, vertex_numbers, visible_arcs
-from molviz.visibility.names import BALL
+from molviz.visibility.names import BALL, HALF
 from molviz.visibility.own_occlusion import beyond_own_plane, creases_in_view, outside_free_arcs
 from molviz.visibility.painted_sticks import caps_of_sticks, stick_sides
 from molviz.visibility.projection import Projection, arcs_on_page
 from molviz.visibility.solids import Solids
 from molviz.visibility.stack import Sides, Stack, sides_together, stacked
 from molviz.visibility.view import View
+
+OVER_BORDERS = 0.1  # radians, about as many lengths of a stick
 
 
 class Pieces(NamedTuple):
@@ -43,6 +45,7 @@ class Pieces(NamedTuple):
     curves: Curves  # creases, then horizons, then curves of sticks; eye coordinates
     curve_arcs: CurveArcs  # (k,) the arcs on their curves
     arcs: PlaneArcs  # (k,) the same on the page
+    strokes: PlaneArcs  # (k,) the same as they are stroked: lines of sticks run on a little beyond borders
     edges: PlanarMap  # (2k,) its faces are the pieces
     loops: Loops  # by piece
 
@@ -124,6 +127,18 @@ def _chained(curves: Curves, named: NamedArcs, sides: Sides, stack: Stack, proje
     curve_arcs = CurveArcs(named.curve, named.start, named.sweep, *vertex_numbers(named.origin, named.target))
     edges = planar_map(curve_arcs.origin, curve_arcs.target, left, right)
     arcs = arcs_on_page(curves, curve_arcs.curve, curve_arcs.start, curve_arcs.sweep, projection)
+    before, behind = (_beyond(curves, named, ends) for ends in (named.origin, named.target))
+    start, sweep = curve_arcs.start - before, curve_arcs.sweep + before + behind
+    strokes = arcs_on_page(curves, curve_arcs.curve, start, sweep, projection)
     pieces = np.unique(piece)
     order = pieces[np.argsort(stack.rank[pieces])]
-    return Pieces(order, stack.owner(), curves, curve_arcs, arcs, edges, loops(edges))
+    return Pieces(order, stack.owner(), curves, curve_arcs, arcs, strokes, edges, loops(edges))
+
+
+def _beyond(curves: Curves, named: NamedArcs, ends: Ints) -> Floats:
+    """By which angle (k,) strokes of lines run on beyond those of the given ends that are at borders.
+
+    A border bulges into the farther part, along whose lines it covers the inner half of the strokes.
+    """
+    rows = (curves.kind[named.curve] == LINE) & (ends[:, 0] >> 1 == HALF)
+    return np.where(rows, OVER_BORDERS, 0.0)
