@@ -20,9 +20,10 @@ def map_of(spheres: Spheres, view: View, sticks: Sticks = NO_STICKS) -> Visibili
     return map_in_view(union_boundary(spheres), solids, np.arange(len(spheres.radius)), view, projection_of(view))
 
 
-def pieces_of(spheres: Spheres, view: View) -> Pieces:
-    seen = occluders_of(eye_coordinates(spheres, view), view)
-    return painter_pieces(union_boundary(spheres), seen, np.arange(len(spheres.radius)), view, projection_of(view))
+def pieces_of(spheres: Spheres, view: View, sticks: Sticks = NO_STICKS) -> Pieces:
+    seen = eye_coordinates(spheres, view)
+    solids = Solids(occluders_of(seen, view), sticks_in_view(seen, sticks, view))
+    return painter_pieces(union_boundary(spheres), solids, np.arange(len(spheres.radius)), view, projection_of(view))
 
 
 def shaken(center: object, radius: object) -> Spheres:

@@ -50,7 +50,7 @@ output_options = applied(
     click.option("--to", metavar="FORMAT", help="Format (svg, ps, …) where the output is - or a folder."),
 )
 look_options = applied(
-    shared("method", show_default=True),
+    shared("method", show_default=True, help="The exact map, or pieces that cover each other."),
     shared("check", help="Verify the invariants of the visibility map first."),
     shared("rep", multiple=True, metavar="[SELECTION=]NAME", help=f"{', '.join(REPRESENTATIONS)}; repeatable."),
     shared("bonds", show_default=True, help="Bonds of the file and, where it has none, by distance."),

@@ -61,11 +61,12 @@ scene_options = applied(
 @plotter_options
 @input_options
 def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
-    """Remove the hidden lines of spheres, exactly. Formats: .ps .eps .svg .svgz .pdf .hpgl .json.
+    """Remove the hidden lines of spheres and sticks, exactly. Formats: .ps .eps .svg .svgz .pdf .hpgl .json.
 
     \b
     Examples:
       molviz hidden-lines caffeine.xyz -o caffeine.svg       a molecule as fused spheres
+      molviz hidden-lines caffeine.xyz --rep sticks -o s.pdf its bonds as sticks
       molviz hidden-lines 1a8o.pdb --as discs -o it.ps       its atoms as discs
       molviz hidden-lines --random 10000                     the statistics of Franklin's Fig. 8
       molviz hidden-lines --random 1000 -o gas.svg           the drawing

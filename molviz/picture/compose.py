@@ -419,19 +419,21 @@ def picture_of_pieces(pieces: Pieces, subject: Subject, options: DrawOptions) ->
     """Return the drawing of painter's pieces, back to front, each with the strokes of its own edges; fills are flat."""
     fill, around = _plain_fill(subject, options), _around_pieces(subject, options)
     placement, widths = around.placement, widths_of(options, around.placement.scale)
-    arcs, is_crease = pieces.arcs.moved(placement.scale, placement.shift), pieces.is_crease()
-    rank = np.full(len(subject.atom), -1)
+    arcs, drawn = (arcs.moved(placement.scale, placement.shift) for arcs in (pieces.arcs, pieces.strokes))
+    rank = np.full(len(pieces.owner), -1)
     rank[pieces.order] = np.arange(len(pieces.order))
     order = np.argsort(rank[pieces.loops.face], kind="stable")
     chains = closed_chains(pieces.loops, order)
     shape = rank[pieces.loops.face[order]]
     paths = shapes_of(arcs, pieces.curve_arcs.curve, chains, shape)
-    fills = _fills_of_pieces(paths, fill[subject.atom[pieces.order]], pieces.order, subject, options)
+    sphere = pieces.owner[pieces.order]
+    fills = _fills_of_pieces(paths, fill[subject.atom[sphere]], sphere, subject, options)
     edge_shape = np.repeat(shape, np.diff(chains.start))
     edge = chains.half_edge >> 1
+    lines = (("crease", pieces.is_crease(), widths[1]), ("outline", pieces.is_contour(), widths[0]))
     strokes = [
-        _strokes_of_pieces(name, pieces, arcs, edge[wanted[edge]], edge_shape[wanted[edge]], width, options)
-        for name, wanted, width in (("crease", is_crease, widths[1]), ("outline", ~is_crease, widths[0]))
+        _strokes_of_pieces(name, pieces, drawn, edge[wanted[edge]], edge_shape[wanted[edge]], width, options)
+        for name, wanted, width in lines
         if width > 0
     ]
     return _picture(subject, options, around, [StackedLayer("atoms", fills, strokes)])

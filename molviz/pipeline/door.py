@@ -76,7 +76,8 @@ def draw(
 
     The options are those of ``molviz draw`` on the command line:
 
-    * what is seen: ``method`` "visible" (the exact map) or "painter" (pieces that cover each other), ``check``;
+    * what is seen: ``method`` "visible" (the exact map) or "painter" (pieces that cover each other, with sticks in
+      an order that is a rule), ``check``;
     * the atoms: ``rep`` "spacefill" (unless told otherwise), "ball-and-stick", "sticks" or "hide", for a part
       "resn HEM=sticks", several, of which the last that applies wins; ``bonds`` from the "file" and, where it has none,
       from distances, by "distance" alone, or "none"; ``ball_scale`` (of the radius, in ball-and-stick) and

@@ -107,7 +107,7 @@ class Drawing:
         for painted in self.subject.painted:
             if not painted.atoms.any():
                 yield f"color {painted.name!r} means no atom that is drawn"
-        seen = self._seen.order if isinstance(self._seen, Pieces) else seen_spheres(self._seen.by_sphere())
+        seen = self._seen.spheres() if isinstance(self._seen, Pieces) else seen_spheres(self._seen.by_sphere())
         for labelled in self.subject.labelled:
             if not labelled.atoms.any():
                 yield f"label {labelled.name!r} means no atom that is drawn"
@@ -293,7 +293,7 @@ def _seen_from(
     seen: VisibilityMap | Pieces
     if method == "painter":
         seen, atom = scene.pieces(view)
-        visible, arcs = len(seen.order), len(seen.curve_arcs.curve)
+        visible, arcs = len(seen.spheres()), len(seen.curve_arcs.curve)
     else:
         seen, atom = scene.map(view)
         if check:

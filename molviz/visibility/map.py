@@ -24,7 +24,7 @@ from molviz.visibility.projection import Projection, arcs_on_page
 from molviz.visibility.settle import settle_ends
 from molviz.visibility.solids import BACKGROUND as BACKGROUND
 from molviz.visibility.solids import Solids
-from molviz.visibility.stick_curves import caps_on_horizons, hidden_of_own, stick_curves
+from molviz.visibility.stick_curves import caps_on_horizons, halving, hidden_of_own, stick_curves
 from molviz.visibility.stick_occlusion import hidden_by_spheres, hidden_by_sticks, sticks_before, sticks_before_spheres
 from molviz.visibility.view import View
 
@@ -137,7 +137,7 @@ def _with_sticks(
     ``near`` are the overlaps of spheres and sticks on the page.
     """
     spheres, sticks, count = solids.spheres, solids.sticks, solids.balls
-    of = stick_curves(sticks, count)
+    of = stick_curves(sticks, halving(sticks, count), count)
     plain = creases.followed_by(horizons)
     start = len(plain.first)
     curves = plain.followed_by(of.curves)
@@ -165,10 +165,7 @@ def _creases_between(
     circle = boundary.arcs.circle
     first, second = number[boundary.circles.first[circle]], number[boundary.circles.second[circle]]
     arc = np.flatnonzero((first >= 0) & (second >= 0) & (label[first] != label[second]))
-    if len(sticks.length):
-        pair, joined = (np.minimum(*both) * len(number) + np.maximum(*both) for both in (
-            (first[arc], second[arc]), (sticks.ends.sphere[::2], sticks.ends.sphere[1::2])))  # fmt: skip
-        arc = arc[~np.isin(pair, joined)]
+    arc = arc[~sticks.joins(first[arc], second[arc], len(wanted))]
     hidden = outside_free_arcs(boundary, arc)
     creases = creases_in_view(boundary.circles.take(circle[arc]), view)
     return (

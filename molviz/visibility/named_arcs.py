@@ -9,7 +9,8 @@ Where an arc ends is known by *why* it ends, never by comparing coordinates. Thr
 * ``EDGE (h)``: the silhouette line of stick half h ends in its ball, and its rim turns away from the eye. At a joint
   the horizon of the ball ends there too.
 * ``ELBOW (h, l)``: the silhouette line of h enters stick half l of the same joint, and their elbow turns away.
-* ``HALF (h)``: the border of h and its stick's other half meets a silhouette line.
+* ``HALF (h)``: the border of h and its stick's other half meets a silhouette line. So does each border of the parts
+  that a painter cuts a stick into; of a part's lines the rest is cut off there.
 
 Three spheres, or a horizon and a sphere, meet in two points, mirror images of each other; ``side`` tells which. An
 interval ``φ ± h`` of a circle with axis a × b inside a half-space with normal g ends on the side where ``(a × b) × g``
@@ -31,15 +32,21 @@ class Hidden(NamedTuple):
     """Hidden intervals of numbered curves, and what hides them.
 
     ``leaves`` and ``enters`` are the solids concerned at the interval's end (where the curve comes out) and at its
-    start (where it goes in), contours where the reason is FRONT; they may differ where several intervals were merged.
+    start (where it goes in), contours where the reason is FRONT, borders where it is CUT; they may differ where
+    several intervals were merged, or where one is what lies beyond both ends of a line.
     """
 
     curve: Ints  # (m,)
     start: Floats  # (m,) radians
     sweep: Floats  # (m,) radians
-    reason: Ints  # (m,) BALL, OWN or FRONT
+    reason: Ints  # (m,) BALL, OWN, FRONT or CUT
     leaves: Ints  # (m,)
     enters: Ints  # (m,)
+
+    def take(self, rows: Ints) -> "Hidden":
+        """Return the given intervals, in that order."""
+        angles, names = (self.start[rows], self.sweep[rows]), (self.leaves[rows], self.enters[rows])
+        return Hidden(self.curve[rows], *angles, self.reason[rows], *names)
 
 
 class NamedArcs(NamedTuple):

@@ -5,7 +5,7 @@ import numpy as np
 from molviz.arrays import Ints
 
 TRIPLE, ENTRY, TEE, WHOLE, EDGE, ELBOW, HALF = range(7)
-BALL, OWN, FRONT = range(3)  # inside a ball or a stick, behind the curve's own solid, or behind one in front
+BALL, OWN, FRONT, CUT = range(4)  # inside a ball or a stick, behind the curve's own solid or one in front, or cut off
 
 
 def named(kind: Ints, side: Ints | int, *numbers: Ints | int) -> Ints:

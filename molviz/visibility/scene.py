@@ -62,7 +62,8 @@ class Scene:
         return self._in_general_position(view, _map)
 
     def pieces(self, view: View) -> tuple[Pieces, Ints]:
-        """Return the painter's pieces and the row of each sphere; raises as ``map`` does."""
+        """Return the painter's pieces, in an order that is a rule for sticks, and the row of each sphere; raises as
+        ``map`` does."""
         return self._in_general_position(view, _pieces)
 
     def _in_general_position(self, view: View, query: Callable[[Prepared, View], T]) -> T:
@@ -115,9 +116,11 @@ def _map(prepared: Prepared, view: View, label: Ints | None = None) -> tuple[Vis
 
 
 def _pieces(prepared: Prepared, view: View) -> tuple[Pieces, Ints]:
-    spheres, wanted = prepared.boundary.spheres, _possibly_visible(prepared.boundary.spheres, view)
-    occluders = occluders_of(eye_coordinates(spheres, view), view)
-    return painter_pieces(prepared.boundary, occluders, wanted, view, projection_of(view)), prepared.row
+    spheres, sticks = prepared.boundary.spheres, prepared.sticks
+    seen = eye_coordinates(spheres, view)
+    solids = Solids(occluders_of(seen, view), sticks_in_view(seen, sticks, view))
+    wanted = _wanted(spheres, sticks, view)
+    return painter_pieces(prepared.boundary, solids, wanted, view, projection_of(view)), prepared.row
 
 
 def labelled_map(spheres: Spheres, label: Ints, view: View) -> VisibilityMap:

@@ -1,6 +1,6 @@
 """The curves of sticks, and what their own solids hide of them.
 
-A stick meets each of its balls in a *rim*, is halved by its *border*, and has two *lines* as its contour. Where sticks
+A stick meets each of its balls in a *rim*, is cut across by *borders* and has two *lines* as its contour. Where sticks
 as wide as their common ball (a *joint*) meet each other, they do so in the plane in which ``p · u`` of both is equal,
 in an ellipse, the *elbow*: near a joint a point belongs to the stick with the largest ``p · u``, or to the ball if none
 is positive. Every condition on these curves is linear.
@@ -25,6 +25,18 @@ from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.occluders.stick import LINES, StickOccluders, plane_function
 
 
+class Cuts(NamedTuple):
+    """Where m borders cut sticks across, and the solids on both sides of each."""
+
+    stick: Ints  # (m,)
+    share: Floats  # (m,) of the axis, from its first end
+    first: Ints  # (m,) towards the first end
+    second: Ints  # (m,)
+
+
+NO_CUTS = Cuts(np.empty(0, dtype=np.int64), np.empty(0), np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64))
+
+
 class StickCurves(NamedTuple):
     """The curves of k sticks: rims (2k, one for each end), borders, elbows; then lines (2k, right and left of each)."""
 
@@ -34,18 +46,17 @@ class StickCurves(NamedTuple):
     end: Ints  # (m,) the end of a rim, or of both sticks of an elbow that in ``second``, else −1
 
 
-def stick_curves(sticks: StickOccluders, count: int) -> StickCurves:
+def stick_curves(sticks: StickOccluders, cuts: Cuts, count: int) -> StickCurves:
     """Return the curves of sticks between ``count`` spheres."""
     one, other = _elbow_ends(sticks)
     number, ends = np.arange(len(sticks.length)), np.arange(2 * len(sticks.length))
-    halfway = _halfway(sticks)
-    parts = [rims(sticks, count), borders(sticks, count).take(halfway), _elbows(sticks, one, other, count)]
-    none = np.full(len(ends), -1)
+    parts = [rims(sticks, count), borders(sticks, cuts), _elbows(sticks, one, other, count)]
+    none, uncut = np.full(len(ends), -1), np.full(len(cuts.stick), -1)
     return StickCurves(
         parts[0].followed_by(parts[1]).followed_by(parts[2]).followed_by(lines(sticks, count)),
-        np.concatenate([ends >> 1, halfway, one >> 1, np.repeat(number, 2)]),
-        np.concatenate([none, none[: len(halfway)], other >> 1, none]),
-        np.concatenate([ends, none[: len(halfway)], one, none]),
+        np.concatenate([ends >> 1, cuts.stick, one >> 1, np.repeat(number, 2)]),
+        np.concatenate([none, uncut, other >> 1, none]),
+        np.concatenate([ends, uncut, one, none]),
     )
 
 
@@ -68,19 +79,19 @@ def rims(sticks: StickOccluders, count: int) -> Curves:
     )  # fmt: skip
 
 
-def borders(sticks: StickOccluders, count: int) -> Curves:
-    """Return the circles that halve the sticks, a × b along their axes."""
-    number = np.arange(len(sticks.length))
-    e, f = perpendicular(sticks.direction)
-    center = sticks.start + sticks.direction * (sticks.length / 2)[:, None]
-    radius = sticks.radius[:, None]
-    kind = np.full(len(number), BORDER)
-    return Curves(kind, count + 2 * number, count + 2 * number + 1, center, e * radius, f * radius)
+def borders(sticks: StickOccluders, cuts: Cuts) -> Curves:
+    """Return the circles that cut sticks across, a × b along their axes."""
+    direction = sticks.direction[cuts.stick]
+    e, f = perpendicular(direction)
+    center = sticks.start[cuts.stick] + direction * (sticks.length[cuts.stick] * cuts.share)[:, None]
+    radius = sticks.radius[cuts.stick, None]
+    return Curves(np.full(len(cuts.stick), BORDER), cuts.first, cuts.second, center, e * radius, f * radius)
 
 
-def _halfway(sticks: StickOccluders) -> Ints:
-    """The sticks whose middles lie in neither ball."""
-    return np.flatnonzero(np.isfinite(sticks.middle()))
+def halving(sticks: StickOccluders, count: int) -> Cuts:
+    """Return the cuts at the middles of the sticks, but for those in a ball."""
+    stick = np.flatnonzero(np.isfinite(sticks.middle()))
+    return Cuts(stick, np.full(len(stick), 0.5), count + 2 * stick, count + 2 * stick + 1)
 
 
 def lines(sticks: StickOccluders, count: int) -> Curves:
@@ -135,6 +146,20 @@ def _elbows(sticks: StickOccluders, one: Ints, other: Ints, count: int) -> Curve
     return Curves(np.full(len(one), SEAM), count + other, count + one, center, a * radius, b * radius)
 
 
+def farthest_reach(sticks: StickOccluders) -> Floats:
+    """Return how far along the axis from each end (2k,) the rim and the elbows there reach.
+
+    An elbow reaches to ``s cot(θ/2)``, θ the angle between both sticks.
+    """
+    ends, radius = sticks.ends, np.repeat(sticks.radius, 2)
+    size = np.sqrt(dot(ends.offset, ends.offset))
+    reach = ends.reach + radius * np.divide(size, ends.reach, out=np.zeros_like(size), where=size > 0)
+    one, other = _pairs_at_joints(sticks)
+    cosine = dot(ends.outward[one], ends.outward[other])
+    np.maximum.at(reach, one, radius[one] * np.sqrt((1.0 + cosine) / (1.0 - cosine)))
+    return reach
+
+
 def hidden_of_own(sticks: StickOccluders, spheres: SphereOccluders, of: StickCurves, first_curve: int) -> list[Hidden]:
     """Return what their own sticks and balls hide of the curves, which are number ``first_curve`` onwards."""
     kind, number = of.curves.kind, np.arange(len(of.curves.kind))
@@ -168,15 +193,16 @@ def _where(margin: Linear, curve: Ints, reason: int, other: Ints) -> Hidden:
 def _at_joints(
     sticks: StickOccluders, of: StickCurves, rim: Ints, elbow: Ints, line: Ints, count: int
 ) -> list[Hidden]:
-    """What balls and other sticks of a joint hide: elbows where ``p · u < 0``, and all where another's is larger."""
+    """What balls and other sticks of a joint hide: elbows where ``p · u`` is less than at the rims, and all where
+    another's is larger."""
     pair, third = _pairs_at_joints(sticks)
     start = offsets(pair, len(rim))
     end = of.end[elbow]
-    center, outward = _centers(sticks), sticks.ends.outward
+    center, outward, reach = _centers(sticks), sticks.ends.outward, sticks.ends.reach
     parts = [
-        _where(plane_function(of.curves, elbow, center[end], -outward[end], np.zeros(len(end))),
+        _where(plane_function(of.curves, elbow, center[end], -outward[end], -reach[end]),
                elbow, BALL, sticks.ends.sphere[end]),
-        _where(plane_function(of.curves, rim[pair], center[pair], outward[third], np.zeros(len(pair))),
+        _where(plane_function(of.curves, rim[pair], center[pair], outward[third], reach[pair]),
                rim[pair], BALL, count + third),
     ]  # fmt: skip
     row, entry = expand(start[end], start[end + 1])

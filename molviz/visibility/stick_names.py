@@ -10,7 +10,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Ints
 from molviz.visibility.curves import BORDER, HORIZON, LINE, SEAM, Curves
-from molviz.visibility.names import BALL, EDGE, ELBOW, ENTRY, HALF, OWN, TRIPLE, named
+from molviz.visibility.names import BALL, CUT, EDGE, ELBOW, ENTRY, HALF, OWN, TRIPLE, named
 
 
 def name_stick_ends(
@@ -41,6 +41,7 @@ def name_stick_ends(
     _write(name, horizon & own, EDGE, side, other)
     _write(name, horizon & ball & (other >= count), ENTRY, side, first, other)
     _write(name, line & own, EDGE, left ^ ((other - count) & 1), other)
+    _write(name, line & (why == CUT), HALF, left, other)
     _write(name, line & ball, ELBOW, left ^ ((near - count) & 1), near, other)
 
 

@@ -82,6 +82,12 @@ class StickOccluders(NamedTuple):
         hit = np.isfinite(far) & (along >= 0) & (along <= self.length[stick])
         return np.where(hit, far, np.inf), np.asarray(along > self.middle()[stick])
 
+    def joins(self, first: Ints, second: Ints, count: int) -> Bools:
+        """Return whether there is a stick between each pair (m,) of ``count`` spheres."""
+        pair, joined = (np.minimum(*both) * count + np.maximum(*both)
+                        for both in ((first, second), (self.ends.sphere[::2], self.ends.sphere[1::2])))  # fmt: skip
+        return np.isin(pair, joined)
+
     def middle(self) -> Floats:
         """Return how far along (k,) the halves meet: infinitely far where a ball holds the middle."""
         reach = self.ends.reach.reshape(-1, 2) >= self.length[:, None] / 2
