@@ -36,6 +36,7 @@ from molviz.pipeline.values import input_options_from, parse_count, parse_scale_
 from molviz.pipeline.views import ViewOptions
 
 PLACES = ("-o", "--output", "--to")  # options that say where a result goes
+UNTOLD = (*PLACES, "--threads")  # and that change nothing in it
 STAGES = 3  # reading, what is seen, writing
 
 SCALE_BAR = Parsed("ångström", parse_scale_bar)
@@ -124,7 +125,7 @@ def drawn_by(source: str) -> str:
     kept: list[str] = []
     for before, word in zip(["", *typed], typed, strict=False):
         named = word.partition("=")[0]
-        if before not in PLACES and named not in (*PLACES, "--quiet", "--strict", "--json"):
+        if before not in UNTOLD and named not in (*UNTOLD, "--quiet", "--strict", "--json"):
             kept.append(word)
     inputs = click.get_current_context().params.get("inputs", ())
     options = [word for word in kept[1:] if word not in inputs]

@@ -11,7 +11,6 @@ boundary, so ball k covers the crease of i and j unless its centre lies between 
 """
 
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import numpy as np
@@ -24,10 +23,9 @@ from molviz.geometry.intervals import TURN, Intervals, above, gaps
 from molviz.geometry.rows import blocks, expand, offsets
 from molviz.geometry.tolerances import COINCIDE, TOUCH
 from molviz.model.spheres import Spheres
+from molviz.threads import in_threads
 
 BLOCK_ENTRIES = 1 << 17  # entries (sphere, cap, cap) at a time: their temporaries stay in cache
-THREADS = 2
-
 
 class Boundary(NamedTuple):
     """The union boundary of ``spheres``: the creases with a free part, ordered by their spheres, and the free arcs."""
@@ -77,9 +75,8 @@ def _distances(spheres: Spheres, one: Ints, other: Ints) -> tuple[Floats, Floats
 def _candidates(spheres: Spheres, crossing: Neighbours) -> OpenCreases:
     """The creases that may have a free part, of all spheres; crease numbers run through."""
     empty = np.empty(0, dtype=np.int64)
-    with ThreadPoolExecutor(THREADS) as pool:
-        lists = pool.map(lambda sphere: _of_block(_caps(spheres, crossing, sphere)), _blocks(crossing))
-        parts = [part for block in lists for part in block]
+    lists = in_threads(lambda sphere: _of_block(_caps(spheres, crossing, sphere)), _blocks(crossing))
+    parts = [part for block in lists for part in block]
     parts.append(OpenCreases(empty, empty, empty.astype(np.uint64), empty, empty))
     begin = np.cumsum([0] + [len(part.first) for part in parts])
     shifted = [part._replace(crease=part.crease + at) for part, at in zip(parts, begin, strict=False)]

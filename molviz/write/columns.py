@@ -11,6 +11,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints, Words
 from molviz.curves import Paths
+from molviz.threads import in_threads
 
 BLOCK = 8192  # arcs formatted at a time: what is in between stays in the cache
 GROUP = 10_000  # of four digits, which are one word
@@ -35,7 +36,7 @@ def formatted(paths: Paths, write: Callable[[Paths], Formatted]) -> Formatted:
     loops, arcs = len(paths.loop_start) - 1, len(paths.arcs.start)
     cuts = np.unique(np.searchsorted(paths.loop_start, np.arange(0, arcs + BLOCK, BLOCK)).clip(0, loops))
     cuts = np.unique([0, *cuts.tolist(), loops])
-    parts = [write(_loops(paths, first, stop)) for first, stop in zip(cuts, cuts[1:], strict=False)]
+    parts = in_threads(lambda cut: write(_loops(paths, *cut)), zip(cuts, cuts[1:], strict=False))
     before = np.cumsum([0, *(len(part.text) for part in parts)])
     stops = [part.stop + shift for part, shift in zip(parts, before, strict=False)]
     return Formatted("".join(part.text for part in parts), np.concatenate([np.empty(0, dtype=np.int64), *stops]))
