@@ -27,7 +27,8 @@ def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize(
     "words",
-    [["draw", f"{SAMPLES}/1a8o.pdb", "--to", "svg"], ["draw", f"{SAMPLES}/c60.xyz", "--perspective", "30", "--to", "ps"],
+    [["draw", f"{SAMPLES}/1a8o.pdb", "--to", "svg"],
+     ["draw", f"{SAMPLES}/c60.xyz", "--perspective", "30", "--to", "ps"],
      ["hidden-lines", "--random", "3000", "--fill", "flat", "--to", "pdf"], ["measure", f"{SAMPLES}/1a8o.pdb"]],
 )  # fmt: skip
 def test_any_number_of_threads_gives_the_same_bytes(words: list[str]) -> None:

@@ -101,9 +101,10 @@ def occlusion(spheres: SphereOccluders, curves: Curves, curve: Ints, sphere: Int
     last = np.arange(ends.shape[1]) == np.sum(~np.isnan(ends), axis=1)[:, None] - 1
     sweep = np.where(last, ends[:, :1] + TURN - ends, sweep)
     start, sweep = _without_ends(ends, sweep)
-    middle = start + sweep / 2
-    hidden = (cone.at(middle) < 0) & (plane.at(middle) > 0)
-    row, column = np.nonzero(hidden)
+    row, column = np.nonzero(~np.isnan(sweep))
+    middle = start[row, column] + sweep[row, column] / 2
+    hidden = (cone.take(row).at(middle) < 0) & (plane.take(row).at(middle) > 0)
+    row, column = row[hidden], column[hidden]
     name = sphere[row]
     reason = np.full(len(row), FRONT)
     return Hidden(curve[row], start[row, column], sweep[row, column], reason, name, name)
