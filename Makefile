@@ -8,6 +8,7 @@ SAMPLES := $(wildcard samples/*.pdb samples/*.pdb.gz samples/*.cif samples/*.cif
 STEMS := $(basename $(notdir $(SAMPLES:.gz=)))
 PICTURES := $(foreach stem,$(STEMS),pictures/$(stem).svg pictures/$(stem).ps)
 DRAW_OPTIONS ?=
+BENCH_FILES ?=
 # for black lines and text, which a dark page would swallow
 PAPER := --background white
 
@@ -68,9 +69,10 @@ gallery: $(VENV)/installed ## redraw the README's pictures into docs/
 	$(MOLVIZ) draw samples/1a1f.pdb --style line --width 8cm $(PAPER) -o docs/line.svg
 	$(MOLVIZ) hidden-lines --random 1000 --shrink --radius 0.135 $(PAPER) -o docs/gas.svg
 
-bench: $(VENV)/benched ## measure run times, sizes and peers (nothing is asserted)
-	$(BIN)/python benchmarks/draw_bench.py
-	$(BIN)/python benchmarks/franklin_bench.py
+bench: $(VENV)/benched ## measure run times, sizes and peers in one table, benchmarks/RESULTS.md (nothing is asserted)
+	mkdir -p out
+	$(BIN)/python benchmarks/bench.py $(BENCH_FILES) > out/RESULTS.md && mv out/RESULTS.md benchmarks/RESULTS.md
+	$(BIN)/python benchmarks/franklin_bench.py peers statistics
 	$(BIN)/python benchmarks/measure_bench.py
 	$(BIN)/python benchmarks/surface_bench.py
 	$(BIN)/python benchmarks/query_bench.py

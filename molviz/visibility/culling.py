@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints
+from molviz.arrays import Bools, Floats, Ints, ShortInts
 from molviz.geometry.rows import blocks, expand
 from molviz.threads import in_threads
 from molviz.visibility.occluders.sphere import SphereOccluders
@@ -35,19 +35,24 @@ def possibly_visible(spheres: SphereOccluders, projection: Projection) -> Bools:
     count = int(cells.high[:, 1].max()) + 1
     nearest_cover = np.full(count * cells.wide, -np.inf)
 
-    def bounds(block: slice) -> tuple[Ints, Ints, Floats, Ints, Floats]:
+    def bounds(block: slice) -> tuple[slice, ShortInts, Floats, ShortInts, Floats]:
         sphere, cell, low = _rows(cells, block)
         least, most = spheres.surface_bounds(sphere, low, cells.side)
         covering = np.flatnonzero(least > -np.inf)
-        return sphere, cell, most, covering, least[covering]
+        short = cell.astype(np.int32)  # all rows are kept: half the memory
+        return block, short, most, short[covering], least[covering]
 
     touched = in_threads(bounds, _blocks(cells))
-    for _, cell, _, covering, least in touched:
-        np.maximum.at(nearest_cover, cell[covering], least)
-    visible: Bools = np.zeros(len(cells.low), dtype=bool)
-    for sphere, cell, most, _, _ in touched:
-        visible[sphere[most > nearest_cover[cell]]] = True
-    return visible
+    for _, _, _, covered, least in touched:
+        np.maximum.at(nearest_cover, covered, least)
+    seen = [_seen(cells, block, most > nearest_cover[cell]) for block, cell, most, _, _ in touched]
+    return np.concatenate(seen)
+
+
+def _seen(cells: _Cells, block: slice, shows: Bools) -> Bools:
+    """Which of some spheres show in one of their cells."""
+    number = np.prod(cells.high[block] - cells.low[block] + 1, axis=1)
+    return np.asarray(np.maximum.reduceat(shows, np.cumsum(number) - number))
 
 
 def _cells(spheres: SphereOccluders, projection: Projection) -> _Cells:
