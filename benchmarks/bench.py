@@ -169,7 +169,7 @@ def scaling(bench: Bench, sizes: list[int]) -> None:
         command = [sys.executable, "-m", "molviz", "measure", str(source), "--radii", "file", "--quiet"]
         spent["measure"].append(bench.row(f"globule of {count:,}, measure", command).cpu - bench.numpy.cpu)
     for what, seconds in spent.items():
-        slope = np.polyfit(np.log(sizes[1:]), np.log(seconds[1:]), 1)[0]
+        slope = np.polyfit(np.log(sizes[1:]), np.log(np.maximum(seconds[1:], 1e-3)), 1)[0]
         print(f"\nExponent of {what} from {sizes[1]:,} to {sizes[-1]:,} atoms, start taken off: {slope:.2f}.")
 
 
