@@ -42,7 +42,7 @@ numpy.savetxt(sys.argv[2], numpy.column_stack([spheres.center, spheres.radius]),
 GLOBULE = """
 import sys, numpy
 sys.path.insert(0, sys.argv[3])
-from measure_bench import globule
+from globule import globule
 spheres = globule(int(sys.argv[1]))
 numpy.savetxt(sys.argv[2], numpy.column_stack([spheres.center, spheres.radius]), "%.4f")
 """
