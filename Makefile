@@ -10,6 +10,7 @@ PICTURES := $(foreach stem,$(STEMS),pictures/$(stem).svg pictures/$(stem).ps)
 DRAW_OPTIONS ?=
 FUZZ ?=
 SOAK ?=
+BENCH_FILES ?=
 # for black lines and text, which a dark page would swallow
 PAPER := --background white
 
@@ -77,9 +78,10 @@ gallery: $(VENV)/developed ## redraw the README's pictures into docs/
 	$(MOLVIZ) hidden-lines --random 1000 --shrink --radius 0.135 $(PAPER) -o docs/gas.svg
 	$(BIN)/python benchmarks/view_screenshot.py samples/1tii.pdb.gz -o docs/view.png
 
-bench: $(VENV)/benched ## measure run times, sizes and peers (nothing is asserted)
-	$(BIN)/python benchmarks/draw_bench.py
-	$(BIN)/python benchmarks/franklin_bench.py
+bench: $(VENV)/benched ## measure run times, sizes and peers in one table, benchmarks/RESULTS.md (nothing is asserted)
+	mkdir -p out
+	$(BIN)/python benchmarks/bench.py $(BENCH_FILES) > out/RESULTS.md && mv out/RESULTS.md benchmarks/RESULTS.md
+	$(BIN)/python benchmarks/franklin_bench.py peers statistics
 	$(BIN)/python benchmarks/measure_bench.py
 	$(BIN)/python benchmarks/surface_bench.py
 	$(BIN)/python benchmarks/query_bench.py

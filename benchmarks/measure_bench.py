@@ -15,6 +15,7 @@ from typing import NamedTuple
 import freesasa
 import numpy as np
 import rust_sasa_python
+from globule import globule
 
 from molviz.geometry.measure import measure_spheres
 from molviz.model.spheres import Spheres
@@ -68,16 +69,6 @@ def timed(program: str, spheres: Spheres, probe: float, repeat: int) -> Run:
         area = PROGRAMS[program](spheres, probe)
         seconds = min(seconds, time.perf_counter() - begin)
     return Run(program, seconds, area)
-
-
-def globule(count: int) -> Spheres:
-    """Jittered points 2.2 Å apart, the ``count`` nearest to the origin, with radii of carbon, nitrogen and oxygen."""
-    random = np.random.default_rng(1)
-    half = int(np.ceil((count / 4) ** (1 / 3))) + 1
-    points = 2.2 * np.array(list(np.ndindex(*[2 * half] * 3)), dtype=float) - 2.2 * half
-    points += random.uniform(-0.5, 0.5, points.shape)
-    nearest = np.argsort(np.linalg.norm(points, axis=1))[:count]
-    return Spheres(points[nearest], random.choice([1.7, 1.55, 1.52], count))
 
 
 def report(source: str, spheres: Spheres, probe: float, repeat: int) -> None:

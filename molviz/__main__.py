@@ -1,5 +1,5 @@
 """Runs the command line as ``python -m molviz``."""
 
-from molviz.cli import main
+from molviz.cli import run
 
-main()
+run()

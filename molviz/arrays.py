@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     Singles: TypeAlias = NDArray[np.float32]
     Masks: TypeAlias = NDArray[np.uint64]
     Octets: TypeAlias = NDArray[np.uint8]
+    Words: TypeAlias = NDArray[np.uint32]
+    ShortInts: TypeAlias = NDArray[np.int32]
     Fields: TypeAlias = NDArray[np.bytes_]
     Texts: TypeAlias = NDArray[np.object_]
 else:  # importing numpy.typing takes longer than drawing a small molecule
-    Floats = Ints = Bools = Strings = Singles = Masks = Octets = Fields = Texts = np.ndarray
+    Floats = Ints = Bools = Strings = Singles = Masks = Octets = Words = ShortInts = Fields = Texts = np.ndarray

@@ -63,6 +63,7 @@ NOT_IN_PYTHON = {
     "format_": "read(path, format=…) says what a file is; standard input is the command line's",
     "unpack_all": "read(path, unpack_all=True) reads such an archive",
     "show": "a notebook shows a drawing by itself",
+    "threads": "molviz.threads.use(number)",
     "quiet": "Python's warning filters do it",
     "strict": "Python's warning filters do it",
     "plotter": "of one format: to('hpgl', plotter=…), save(path, plotter=…)",

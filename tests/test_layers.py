@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parent.parent / "molviz"
-COMMON = {"arrays", "curves", "errors", "rounding", "toml", "vectors"}
+COMMON = {"arrays", "curves", "errors", "rounding", "threads", "toml", "vectors"}
 STAGES = {  # what each stage may import, besides itself and COMMON
     "model": set(),
     "readers": {"model"},

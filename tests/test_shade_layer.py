@@ -81,7 +81,7 @@ def test_the_last_set_that_paints_a_point_is_that_of_all_its_steps() -> None:
 
 
 def test_long_paths_are_several_procedures() -> None:
-    words = list(procedures([f"{k} 0 m\n{k} 1 l h" for k in range(LINES)]))
+    words = list(procedures("\n".join(f"{k} 0 m\n{k} 1 l h" for k in range(LINES))))
     assert words.count("{") == words.count("}") == 2 and len(words) == 2 * LINES + 4
 
 

@@ -1,5 +1,5 @@
 """The command line: options become values, then one call each."""
 
-from molviz.cli.main import main
+from molviz.cli.main import main, run
 
-__all__ = ["main"]
+__all__ = ["main", "run"]

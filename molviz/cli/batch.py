@@ -6,6 +6,7 @@ from typing import Any, NamedTuple, TypeVar
 
 import click
 
+from molviz import threads
 from molviz.cli import failures
 from molviz.cli.progress import Progress
 from molviz.cli.telling import collected, say, visible
@@ -85,9 +86,11 @@ def _outcomes(sources: Sequence[str], work: Work, where: Where, progress: Progre
 
 
 def attempt(work: Work, source: str, elsewhere: bool = False) -> Outcome:
-    """Return what became of one input; ``elsewhere``, in another process, nothing is said but kept for the outcome."""
+    """Return what became of one input; ``elsewhere``, in another process, one thread works, and nothing is
+    said but kept for the outcome."""
     if not elsewhere:
         return _attempted(work, source, PASSED_ON)
+    threads.use(1)
     with collected() as lines:
         outcome = _attempted(work, source, ())
     return outcome._replace(lines=(*lines, *outcome.lines))

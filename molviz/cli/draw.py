@@ -39,7 +39,8 @@ from molviz.pipeline.values import input_options_from, parse_count, parse_scale_
 from molviz.pipeline.views import ViewOptions
 from molviz.viewer.terminal import UNABLE, show
 
-PLACES = ("-o", "--output", "--to", "-j", "--jobs", "--dask")  # options that say where the result goes, who makes it
+# options that say where the result goes, and who makes it
+PLACES = ("-o", "--output", "--to", "-j", "--jobs", "--dask", "--threads")
 STAGES = 3  # reading, what is seen, writing
 
 SCALE_BAR = Parsed("ångström", parse_scale_bar)

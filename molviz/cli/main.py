@@ -1,5 +1,6 @@
 """The group of all commands, and what a user sees when something is wrong."""
 
+import gc
 import importlib
 import io
 import os
@@ -16,19 +17,19 @@ from molviz.cli import failures
 from molviz.cli.telling import say
 from molviz.errors import InputError
 
-COMMANDS = {  # name → module:object, imported when first used
-    "draw": "molviz.cli.draw:draw_command",
-    "hidden-lines": "molviz.cli.hidden_lines:hidden_lines_command",
-    "measure": "molviz.cli.measure:measure_command",
-    "surface": "molviz.cli.surface:surface_command",
-    "clash": "molviz.cli.clash:clash_command",
-    "info": "molviz.cli.info:info_command",
-    "view": "molviz.cli.view:view_command",
-    "styles": "molviz.cli.styles:styles_command",
-    "radii": "molviz.cli.radii:radii_command",
-    "help": "molviz.cli.help:help_command",
+COMMANDS = {  # name → module:object, imported when first used, and the first line of its help, told without it
+    "draw": ("molviz.cli.draw:draw_command", "Draw molecules as exact vector pictures."),
+    "hidden-lines": ("molviz.cli.hidden_lines:hidden_lines_command", "Remove the hidden lines of spheres, exactly."),
+    "measure": ("molviz.cli.measure:measure_command", "Tell the exact area and volume of the union of balls."),
+    "surface": ("molviz.cli.surface:surface_command", "Tell components, cavities and faces of the boundary."),
+    "clash": ("molviz.cli.clash:clash_command", "Tell which atoms of A overlap which of B, and by how much."),
+    "info": ("molviz.cli.info:info_command", "Tell what was read, and whether the hard sphere model holds."),
+    "view": ("molviz.cli.view:view_command", "Turn molecules in the browser, and save the drawing."),
+    "styles": ("molviz.cli.styles:styles_command", "List the styles and palettes, with a line on each."),
+    "radii": ("molviz.cli.radii:radii_command", "List the tables of radii, with their publications."),
+    "help": ("molviz.cli.help:help_command", "Explain the language of selections, or a command."),
 }
-
+SEARCHED_EVERY = 100_000  # new objects: a search for cycles among fewer finds none, and takes a tenth of the time
 
 TYPED = "molviz.typed"  # where a context holds the words after the program's name
 
@@ -44,9 +45,14 @@ class Commands(click.Group):
         """Return one command."""
         if cmd_name not in COMMANDS:
             return None
-        module, name = COMMANDS[cmd_name].split(":")
+        module, name = COMMANDS[cmd_name][0].split(":")
         command: click.Command = getattr(importlib.import_module(module), name)
         return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the list of all commands, none of which is imported for it."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, told) for name, (_, told) in COMMANDS.items()])
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Keep what was typed, for files that say what drew them."""
@@ -99,6 +105,15 @@ def _ended_by_sigterm() -> Iterator[None]:
 def _forget_output() -> None:
     """Let what is left in the buffer go nowhere: Python would try to write it once more at its end, and complain."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def run() -> None:
+    """Run the command line as a process of its own: its memory goes back as a whole, not searched for cycles."""
+    gc.set_threshold(SEARCHED_EVERY)
+    try:
+        main()
+    finally:
+        gc.freeze()
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})

@@ -6,6 +6,7 @@ from typing import Any, TypeAlias
 
 import click
 
+from molviz import threads
 from molviz.cli.telling import say
 from molviz.errors import InputError
 from molviz.pipeline.inputs import FORMATS, InputOptions, Loaded, load
@@ -75,6 +76,11 @@ def applied(*options: Decorator) -> Decorator:
     return decorate
 
 
+def _use_threads(ctx: click.Context, param: click.Parameter, number: int | None) -> None:
+    if number is not None:
+        threads.use(number)
+
+
 def input_options_with(probe: Decorator) -> Decorator:
     """Return the options that say which part of an input is wanted; what a probe means is the command's."""
     return applied(
@@ -97,6 +103,14 @@ def input_options_with(probe: Decorator) -> Decorator:
         probe,
         click.option("--format", "format_", type=click.Choice(FORMATS), help="Input format, where - is read."),
         click.option("--unpack-all", is_flag=True, help="Archives too that hold far more than molecules do."),
+        click.option(
+            "--threads",
+            type=click.IntRange(1),
+            metavar="N",
+            expose_value=False,
+            callback=_use_threads,
+            help="Threads that share the work (default: one for each processor).",
+        ),
         click.option("--quiet", is_flag=True, help="No summary line and no warnings."),
         click.option("--strict", is_flag=True, help="Warnings become errors."),
     )

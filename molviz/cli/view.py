@@ -22,7 +22,7 @@ NEEDED = "molviz view needs a web server; expected: pip install 'molviz[view]'"
 @input_options
 @click.option("--no-browser", is_flag=True, help="Only print the page's address.")
 def view_command(inputs: tuple[str, ...], no_browser: bool, **options: Any) -> None:
-    """Turn molecules in the browser, choose how they look, and save the drawing.
+    """Turn molecules in the browser, and save the drawing.
 
     The page is served to this machine only, at the address that is printed, and ends with the page or with Ctrl-C.
     Everything it saves is what molviz draw writes, by a command that it shows.

@@ -4,7 +4,6 @@ A disc is opaque and closed: it hides whatever of farther discs lies on or withi
 of discs with equal z the one with the lower row is nearer. Discs need not come in any order.
 """
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -15,8 +14,9 @@ from molviz.geometry.circles import CircleArcs
 from molviz.geometry.intervals import Intervals, gaps
 from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
+from molviz.threads import in_threads
 
-BLOCK_ROWS = 1 << 18  # pairs, intervals or tests at a time: keeps memory flat and the columns in cache
+BLOCK_ROWS = 1 << 16  # pairs, intervals or tests at a time: keeps memory flat and the columns in cache
 TANGENT = 4.0 * np.finfo(float).eps  # of the lengths compared: perimeters this close to tangent touch and do not cross
 SHORTEST = 1e-12  # radians: a shorter arc lies between two ends that rounding has torn apart
 
@@ -50,8 +50,8 @@ def visible_perimeters(spheres: Spheres, grid: Grid, lists: CellLists) -> tuple[
     """
     pairs, tested = pairs_on_lists(spheres, lists)
     visible, crossing, touching = [], 0, 0
-    for remaining, crossings, touches in _arcs_of_blocks(spheres, lists, pairs):
-        visible.append(remaining.take(~_midpoint_hidden(spheres, grid, lists, remaining)))
+    for remaining, crossings, touches in _arcs_of_blocks(spheres, grid, lists, pairs):
+        visible.append(remaining)
         crossing, touching = crossing + crossings, touching + touches
     columns = (np.concatenate(column) for column in zip(*visible, strict=True))
     blocked = int(np.count_nonzero(lists.blocker != NOBODY))
@@ -61,12 +61,17 @@ def visible_perimeters(spheres: Spheres, grid: Grid, lists: CellLists) -> tuple[
 def pairs_on_lists(spheres: Spheres, lists: CellLists) -> tuple[Pairs, int]:
     """Return the pairs that meet on a cell list, and how often they meet (pairs with several common cells)."""
     count = len(spheres.radius)
-    met, keys = 0, [np.empty(0, dtype=np.int64)]
-    for one, other in _meetings(lists):
+    end = np.repeat(lists.start[1:], np.diff(lists.start))
+    after = np.arange(1, len(lists.item) + 1)
+
+    def keys_of(block: slice) -> tuple[int, Ints]:
+        owner, place = expand(after[block], end[block])
+        one, other = lists.item[block][owner], lists.item[place]
         ahead = nearer(spheres, one, other)
-        met += len(one)
-        keys.append(_distinct(np.where(ahead, other, one) * count + np.where(ahead, one, other)))
-    return Pairs(*np.divmod(_distinct(np.concatenate(keys)), count)), met
+        return len(one), _distinct(np.where(ahead, other, one) * count + np.where(ahead, one, other))
+
+    met, keys = zip((0, after[:0]), *in_threads(keys_of, blocks(end - after, BLOCK_ROWS)), strict=True)
+    return Pairs(*np.divmod(_distinct(np.concatenate(keys)), count)), sum(met)
 
 
 def _distinct(key: Ints) -> Ints:
@@ -76,24 +81,21 @@ def _distinct(key: Ints) -> Ints:
     return distinct
 
 
-def _meetings(lists: CellLists) -> Iterator[tuple[Ints, Ints]]:
-    """All pairs of every cell's list, in blocks."""
-    end = np.repeat(lists.start[1:], np.diff(lists.start))
-    after = np.arange(1, len(lists.item) + 1)
-    for block in blocks(end - after, BLOCK_ROWS):
-        owner, other = expand(after[block], end[block])
-        yield lists.item[block][owner], lists.item[other]
-
-
-def _arcs_of_blocks(spheres: Spheres, lists: CellLists, pairs: Pairs) -> Iterator[tuple[CircleArcs, int, int]]:
-    """The arcs that the pairs leave of every disc on some list, in blocks of discs; crossing and touching pairs."""
+def _arcs_of_blocks(
+    spheres: Spheres, grid: Grid, lists: CellLists, pairs: Pairs
+) -> list[tuple[CircleArcs, int, int]]:
+    """The visible arcs of every disc on some list, in blocks of discs; crossing and touching pairs."""
     listed = np.zeros(len(spheres.radius), dtype=bool)
     listed[lists.item] = True
     disc = np.flatnonzero(listed)
     begin, end = np.searchsorted(pairs.far, disc), np.searchsorted(pairs.far, disc, side="right")
-    for block in blocks(end - begin + 1, BLOCK_ROWS):
+
+    def visible_in(block: slice) -> tuple[CircleArcs, int, int]:
         rows = slice(int(begin[block][0]), int(end[block][-1]))
-        yield _remaining_arcs(spheres, disc[block], Pairs(pairs.far[rows], pairs.near[rows]))
+        arcs, crossing, touching = _remaining_arcs(spheres, disc[block], Pairs(pairs.far[rows], pairs.near[rows]))
+        return arcs.take(~_midpoint_hidden(spheres, grid, lists, arcs)), crossing, touching
+
+    return in_threads(visible_in, blocks(end - begin + 1, BLOCK_ROWS))
 
 
 def _remaining_arcs(spheres: Spheres, disc: Ints, pairs: Pairs) -> tuple[CircleArcs, int, int]:

@@ -14,6 +14,7 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.rows import expand, offsets
 from molviz.model.spheres import Spheres
+from molviz.threads import in_threads
 
 MARGIN = 1e-9  # of a cell: what rounding may do to a coordinate counted in cells, on grids up to 10⁵ × 10⁵
 HALF_DIAGONAL = math.sqrt(0.5)
@@ -115,7 +116,7 @@ def nearer(spheres: Spheres, one: Ints, other: Ints) -> Bools:
 
 def cell_lists(spheres: Spheres, grid: Grid) -> CellLists:
     """Return the blocking disc and the list of every cell, in time linear in the discs' size counted in cells."""
-    strips = [_strip(spheres, grid, *strip) for strip in _strips(spheres, grid)]
+    strips = in_threads(lambda strip: _strip(spheres, grid, *strip), _strips(spheres, grid))
     blocker, length, item = (np.concatenate(column) for column in zip(*strips, strict=True))
     return CellLists(blocker, np.concatenate([[0], np.cumsum(length)]), item)
 

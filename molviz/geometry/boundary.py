@@ -10,9 +10,7 @@ one circle (``COINCIDE``): they belong to a pencil, with their centres in a line
 boundary, so ball k covers the crease of i and j unless its centre lies between theirs.
 """
 
-import os
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import numpy as np
@@ -25,10 +23,10 @@ from molviz.geometry.intervals import TURN, Intervals, above, gaps
 from molviz.geometry.rows import blocks, expand, offsets
 from molviz.geometry.tolerances import COINCIDE, TOUCH
 from molviz.model.spheres import Spheres
+from molviz.threads import in_threads
 from molviz.vectors import length
 
 BLOCK_ENTRIES = 1 << 17  # entries (sphere, cap, cap) at a time: their temporaries stay in cache
-THREADS = 1 if os.environ.get("OMP_NUM_THREADS") == "1" else 2  # one where many processes share the cores
 
 
 class Boundary(NamedTuple):
@@ -79,9 +77,8 @@ def _distances(spheres: Spheres, one: Ints, other: Ints) -> tuple[Floats, Floats
 def _candidates(spheres: Spheres, crossing: Neighbours) -> OpenCreases:
     """The creases that may have a free part, of all spheres; crease numbers run through."""
     empty = np.empty(0, dtype=np.int64)
-    with ThreadPoolExecutor(THREADS) as pool:
-        lists = pool.map(lambda sphere: _of_block(_caps(spheres, crossing, sphere)), _blocks(crossing))
-        parts = [part for block in lists for part in block]
+    lists = in_threads(lambda sphere: _of_block(_caps(spheres, crossing, sphere)), _blocks(crossing))
+    parts = [part for block in lists for part in block]
     parts.append(OpenCreases(empty, empty, empty.astype(np.uint64), empty, empty))
     begin = np.cumsum([0] + [len(part.first) for part in parts])
     shifted = [part._replace(crease=part.crease + at) for part, at in zip(parts, begin, strict=False)]

@@ -13,8 +13,9 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.geometry.rows import blocks, expand, offsets
 from molviz.model.spheres import Spheres
+from molviz.threads import in_threads
 
-BLOCK_ROWS = 1 << 20  # candidate rows at a time: keeps memory flat and the columns in cache
+BLOCK_ROWS = 1 << 17  # candidate rows at a time: keeps memory flat and the columns in cache
 LATER_COLUMNS = [(0, 1), (1, -1), (1, 0), (1, 1)]  # half of them: each pair of columns once
 
 
@@ -62,7 +63,7 @@ def intersecting_pairs(spheres: Spheres) -> tuple[Ints, Ints]:
     if len(spheres.radius) < 2:
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     index = grid_index(spheres)
-    meetings = [_meeting(index, *rows) for rows in _candidate_pairs(index)]
+    meetings = in_threads(lambda block: _meeting(index, *block), _candidate_blocks(index))
     one, other = (index.row[np.concatenate(column)] for column in zip(*meetings, strict=True))
     first, second = np.minimum(one, other), np.maximum(one, other)
     order = np.argsort(first * len(spheres.radius) + second)
@@ -78,8 +79,11 @@ def neighbours(spheres: Spheres) -> Neighbours:
     return Neighbours(offsets(owner, count), item[order])
 
 
-def _candidate_pairs(index: GridIndex) -> Iterator[tuple[Ints, Ints]]:
-    """Pairs of sorted spheres in the same or adjacent cubes, each once, in blocks."""
+def _candidate_blocks(index: GridIndex) -> Iterator[tuple[int, Ints, Ints]]:
+    """Pairs of sorted spheres in the same or adjacent cubes, each once, in blocks.
+
+    A block is its first sphere, and for this and the next ones the range of spheres that each is a pair with.
+    """
     count = len(index.key)
     wide = index.slab_number[2][-1] + 2
     tall = (index.slab_number[1][-1] + 2) * wide
@@ -90,11 +94,12 @@ def _candidate_pairs(index: GridIndex) -> Iterator[tuple[Ints, Ints]]:
         ranges.append((np.searchsorted(index.key, key - 1), np.searchsorted(index.key, key + 1, side="right")))
     for begin, end in ranges:
         for block in blocks(np.maximum(end - begin, 0), BLOCK_ROWS):
-            owner, item = expand(begin[block], end[block])
-            yield owner + block.start, item
+            yield block.start, begin[block], end[block]
 
 
-def _meeting(index: GridIndex, one: Ints, other: Ints) -> tuple[Ints, Ints]:
+def _meeting(index: GridIndex, first: int, begin: Ints, end: Ints) -> tuple[Ints, Ints]:
+    owner, other = expand(begin, end)
+    one = owner + first
     x, y, z = (np.ascontiguousarray(column) for column in index.spheres.center.T)
     radius = index.spheres.radius
     gap = (x[one] - x[other]) ** 2 + (y[one] - y[other]) ** 2 + (z[one] - z[other]) ** 2

@@ -11,6 +11,10 @@ from molviz.model.bonds import NO_BONDS, Bonds
 from molviz.model.molecule import Molecule
 from molviz.readers.source import note
 
+WEIGHTS = (1.0, np.sqrt(2.0), np.sqrt(3.0), np.sqrt(5.0))  # no sum of different decimals is equal but by rounding
+HASH = 1_000_003  # a prime: no two names of few letters have the same sum of powers
+FAR = 0x1E3779B97F4A7C15  # odd, with bits in every byte: runs are as far from each other as from names
+
 
 class AtomTable(NamedTuple):
     """n atoms of all models, in the order of the file."""
@@ -139,9 +143,19 @@ def _oddities(table: AtomTable, source: str) -> list[str]:
 
 def coinciding_rows(position: Floats) -> Ints:
     """Return the rows (k,) whose atom stands exactly where an earlier row's atom stands; position (n, 3)."""
-    order = np.lexsort((np.arange(len(position)), *position.T))
-    same = (position[order][1:] == position[order][:-1]).all(axis=1)
-    return np.sort(order[1:][same])
+    with np.errstate(over="ignore", invalid="ignore"):  # what is no number is compared
+        rows = _repeated(sum(column * weight for column, weight in zip(position.T, WEIGHTS, strict=False)))
+    place = position[rows]  # of few
+    order = np.lexsort((rows, *place.T))
+    same = (place[order][1:] == place[order][:-1]).all(axis=1)
+    return np.sort(rows[order[1:][same]])
+
+
+def _repeated(key: Floats | Ints) -> Ints:
+    """The rows (k,), ascending, whose key (n,) is that of another row, or no number: equal things have equal keys."""
+    order = np.argsort(key)
+    again = ~(key[order][1:] > key[order][:-1])
+    return np.sort(order[np.append(again, False) | np.insert(again, 0, False)])
 
 
 def coinciding_note(count: int, source: str, line: int | None) -> str:
@@ -161,14 +175,23 @@ def _repeated_names(table: AtomTable, source: str) -> list[str]:
         changes |= column[1:] != column[:-1]
     run = np.concatenate([[0], np.cumsum(changes)])
     seen: dict[tuple[int, str], int] = {}
-    keys = list(zip(run.tolist(), table.atom_name.tolist(), strict=True))
-    again = [row for row, key in enumerate(keys) if seen.setdefault(key, row) != row]
+    rows = _repeated(_hash(table.atom_name) + FAR * run).tolist()
+    keys = zip(run[rows].tolist(), table.atom_name[rows].tolist(), strict=True)
+    again = [row for row, key in zip(rows, keys, strict=True) if seen.setdefault(key, row) != row]
     if not again:
         return []
     where = f"{table.residue_name[again[0]]} {table.chain[again[0]]} {table.residue[again[0]]}"
     first = f"the first {table.atom_name[again[0]]} of {where}"
     message = f"{len(again)} atoms named as another atom of their residue, {first}; all are kept"
     return [note(message, source, table.line_of(again[0]))]
+
+
+def _hash(texts: Strings) -> Ints:
+    """A number (n,) for each text, equal where the texts are, and nearly always different where they are not."""
+    code = np.zeros(len(texts), dtype=np.int64)
+    for letter in np.ascontiguousarray(texts).view(np.uint32).reshape(len(texts), -1).T:
+        code = code * HASH + letter
+    return code
 
 
 def _unequal_models(table: AtomTable, source: str) -> list[str]:

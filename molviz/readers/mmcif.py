@@ -21,7 +21,7 @@ from molviz.model.elements import UNKNOWN, symbol_of_atom_name, symbol_of_label
 from molviz.model.molecule import Molecule
 from molviz.readers.atoms import AtomTable, coinciding_note, coinciding_rows, models_of
 from molviz.readers.mmcif_bonds import bonds_stated_in
-from molviz.readers.numbers import LONGEST, SHOWN, number_of, numbers, octets_of, overlong
+from molviz.readers.numbers import LONGEST, SHOWN, number_of, numbers, octets_of, plain_numbers
 from molviz.readers.reading import AssemblyPart, Reading
 from molviz.readers.source import note
 from molviz.vectors import transformed
@@ -42,13 +42,12 @@ def read_mmcif(data: bytes, source: str) -> Reading:
     Raises InputError where the syntax is broken, there are no atoms, or a coordinate is not a finite number.
     """
     text = _decoded(data)
-    lines = text.split("\n")
-    document = _document(text, lines, source)
+    document = _document(text, source)
     for block in document:
         if any(block.find_values(tag) for tag in _CARTESIAN):
-            return _macromolecule(Site(block, lines, source))
+            return _macromolecule(Site(block, text, source))
         if any(block.find_values(tag) for tag in _FRACTIONAL):
-            return _unit_cell(Site(block, lines, source))
+            return _unit_cell(Site(block, text, source))
     raise InputError("no _atom_site with coordinates; expected a CIF file with atoms", source)
 
 
@@ -59,10 +58,11 @@ def _decoded(data: bytes) -> str:
         return data.decode("latin-1")
 
 
-def _document(text: str, lines: list[str], source: str) -> cif.Document:
+def _document(text: str, source: str) -> cif.Document:
     try:
         return cif.read_string(text)
     except (ValueError, RuntimeError) as error:
+        lines = text.split("\n")
         match = _POSITION.match(str(error))
         line = int(match[1]) if match else None
         reason = str(error)[match.end() :] if match else str(error)
@@ -107,13 +107,17 @@ def _lines_of_values(lines: list[str], start: int) -> Iterator[int]:
 class Site:
     """The category atom_site of a block, column by column."""
 
-    def __init__(self, block: cif.Block, lines: list[str], source: str) -> None:
-        self.block, self.lines, self.source = block, lines, source
+    def __init__(self, block: cif.Block, text: str, source: str) -> None:
+        self.block, self.text, self.source = block, text, source
         self.rows: dict[str, int] = {}  # of other categories, by their names
 
     def _values(self, tag: str) -> list[str]:
         """Return a column as it is written, empty where it is missing; raises InputError unless all rows have one."""
-        values = list(self.block.find_values(tag))
+        return list(self._column(tag))
+
+    def _column(self, tag: str) -> cif.Column:
+        """The same without making texts of it."""
+        values = self.block.find_values(tag)
         if not values:
             return values
         category = tag.partition(".")[0]
@@ -128,21 +132,23 @@ class Site:
         values = self._values(tag)
         if not values:
             return None
-        wrong = overlong(values)
-        if wrong is not None:
+        different = set(values)
+        if max(map(len, different)) > LONGEST:
+            wrong = next(row for row, value in enumerate(values) if len(value) > LONGEST)
             message = f"{tag} has {len(values[wrong])} letters, {values[wrong][:SHOWN]!r}…; expected at most {LONGEST}"
             raise InputError(message, self.source, self.line_of(wrong))
-        clean = {value: "" if value in (".", "?") else cif.as_string(value) for value in set(values)}
-        return np.array([clean[value] for value in values])
+        clean = {value: "" if value in (".", "?") else cif.as_string(value) for value in different}
+        as_written = all(value == text for value, text in clean.items())
+        return np.array(values if as_written else [clean[value] for value in values])
 
     def first_texts(self, *tags: str) -> Strings:
         """Return a column whose blanks are filled from the later tags; blank where all are missing."""
-        columns = [column for column in map(self.texts, tags) if column is not None]
-        if not columns:
-            return np.full(len(self), "")
-        filled = columns[0]
-        for column in columns[1:]:
-            filled = np.where(filled == "", column, filled)
+        filled = np.full(len(self), "")
+        for tag in tags:
+            blank = filled == ""
+            column = self.texts(tag) if blank.any() else None
+            if column is not None:
+                filled = column if blank.all() else np.where(blank, column, filled)
         return filled
 
     def coordinates(self, tags: tuple[str, ...]) -> Floats:
@@ -157,11 +163,15 @@ class Site:
         def error(row: int, text: str) -> InputError:
             return InputError(f"{tag} is {text!r}; expected a finite number", self.source, self.line_of(row))
 
-        return numbers(octets_of(_without_uncertainty(values), error), error)
+        plain = plain_numbers(values)
+        return plain if plain is not None else numbers(octets_of(_without_uncertainty(values), error), error)
 
     def optional(self, tag: str, default: float) -> tuple[Floats, list[str]]:
         """Return a column of numbers, the default for ``.`` and ``?``, and a warning where one is something else."""
         values = self._values(tag) or ["."] * len(self)
+        plain = plain_numbers(values)
+        if plain is not None:
+            return plain, []
         octets = {value: _UNCERTAINTY.sub(b"", value.encode()) for value in set(values)}
         known = {value: number_of(octet) for value, octet in octets.items()}
         wrong = {value for value, number in known.items() if value not in (".", "?") and number is None}
@@ -184,7 +194,7 @@ class Site:
         item = self.block.find_loop_item(column.tag.lower())  # compared in lower case
         if loop is None or item is None:
             return []
-        return list(_lines_of_values(self.lines, item.line_number))[:: loop.width()]
+        return list(_lines_of_values(self.text.split("\n"), item.line_number))[:: loop.width()]
 
     def line_of(self, row: int) -> int | None:
         """Return the line at which a row begins, None where the atom is not in a loop."""
@@ -228,6 +238,8 @@ def _macromolecule(site: Site) -> Reading:
 
 def _order_of_first(texts: Strings) -> Ints:
     """Return for every text (n,) how many different ones came before its first appearance."""
+    if (texts == texts[0]).all():
+        return np.zeros(len(texts), dtype=np.int64)
     order: dict[str, int] = {}
     return np.array([order.setdefault(text, len(order)) for text in texts.tolist()])
 

@@ -31,6 +31,21 @@ def numbers(texts: Fields, error: Callable[[int, str], InputError]) -> Floats:
     raise error(row, texts[row].decode("latin-1"))
 
 
+def plain_numbers(words: Sequence[str]) -> Floats | None:
+    """Return words (n,) as finite numbers where all are plain decimal ones, as in most files; None where one is not."""
+    if not words or max(map(len, words)) > LONGEST:
+        return None
+    try:
+        return plain_fields(np.array(words, dtype=np.bytes_))
+    except UnicodeEncodeError:
+        return None
+
+
+def plain_fields(texts: Fields) -> Floats | None:
+    """Return texts (n,) as finite numbers where all are plain decimal ones; None where one is not."""
+    return _converted(texts) if _LEGAL[texts.view(np.uint8)].all() else None
+
+
 def octets_of(words: list[bytes], error: Callable[[int, str], InputError]) -> Fields:
     """Return words (n,) as a column, as wide as the longest; raises ``error(row, text)`` for one that is too long."""
     row = overlong(words)

@@ -17,7 +17,7 @@ from molviz.model.bonds import NO_BONDS, Bonds, joined_lists
 from molviz.model.elements import UNKNOWN, symbol_of, symbol_of_atom_name
 from molviz.readers.atoms import AtomTable, models_of
 from molviz.readers.connections import Connection, connected
-from molviz.readers.numbers import number_of, numbers
+from molviz.readers.numbers import number_of, numbers, plain_fields
 from molviz.readers.reading import AssemblyPart, Reading, left_out
 from molviz.readers.source import note
 
@@ -81,7 +81,8 @@ def _lines(data: bytes) -> Lines:
 
 def _check_columns(atoms: Lines, source: str) -> None:
     """Refuse atom records that end inside the coordinates or have tabs, which leave no fixed columns."""
-    tabs = (atoms.octet == ord("\t")).any(axis=1)
+    tabs = atoms.octet == ord("\t")
+    tabs = tabs.any(axis=1) if tabs.any() else np.zeros(len(tabs), dtype=bool)
     for bad in np.flatnonzero(tabs | (atoms.length < _COORDINATES["z"][1]))[:1].tolist():
         line = int(atoms.number[bad])
         if tabs[bad]:
@@ -178,6 +179,9 @@ def _positions(atoms: Lines, source: str) -> Floats:
 
 def _optional(atoms: Lines, what: str, first: int, last: int, default: float, source: str) -> tuple[Floats, list[str]]:
     """Return a column that may be blank, and a warning where it is neither blank nor a number."""
+    plain = plain_fields(atoms.field(first, last))
+    if plain is not None:
+        return plain, []
     texts, which = np.unique(atoms.field(first, last), return_inverse=True)
     values = np.array([number_of(text) for text in texts.tolist()], dtype=float)
     readable = ~np.isnan(values)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats
+from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.intervals import above
 from molviz.visibility.forms import Quadratic
 
@@ -29,24 +29,22 @@ class Harmonics(NamedTuple):
     h2: Floats
     psi: Floats
 
+    def take(self, rows: Ints) -> "Harmonics":
+        """Return the given rows, in that order."""
+        return Harmonics(*(column[rows] for column in self))
+
     def at(self, angle: Floats) -> Floats:
-        """Return the values at angles (m, k)."""
-        t = angle - self.psi[:, None]
+        """Return the values at one angle each (m,), or at several (m, k)."""
+        h0, h1, g1, h2, psi = (column.reshape(-1, *[1] * (angle.ndim - 1)) for column in self)
+        t = angle - psi
         cosine = np.cos(t)
-        return np.asarray(
-            self.h0[:, None]
-            + self.h1[:, None] * cosine
-            + self.g1[:, None] * np.sin(t)
-            + self.h2[:, None] * (2 * cosine**2 - 1)
-        )
+        return np.asarray(h0 + h1 * cosine + g1 * np.sin(t) + h2 * (2 * cosine**2 - 1))
 
     def slope(self, angle: Floats) -> Floats:
-        """Return the derivatives at angles (m, k)."""
-        t = angle - self.psi[:, None]
+        """Return the derivatives at one angle each (m,)."""
+        t = angle - self.psi
         sine, cosine = np.sin(t), np.cos(t)
-        return np.asarray(
-            self.g1[:, None] * cosine - self.h1[:, None] * sine - 4 * self.h2[:, None] * sine * cosine
-        )
+        return np.asarray(self.g1 * cosine - self.h1 * sine - 4 * self.h2 * sine * cosine)
 
 
 def harmonics(form: Quadratic) -> Harmonics:
@@ -66,13 +64,15 @@ def harmonics(form: Quadratic) -> Harmonics:
 
 
 def roots(form: Harmonics) -> tuple[Floats, Bools]:
-    """Return the angles (m, 4) where the functions vanish, two per line, and which of them exist."""
+    """Return the angles (m, 4) where the functions vanish, two per line, and which of them exist and are exact."""
     p, q, e, f = _two_lines(form)
     middle, half = np.stack([above(p, q, -e), above(p, -q, -f)], axis=2)
-    exists = (half > 0) & (half < np.pi)
+    exists = np.tile((half > 0) & (half < np.pi), 2)
     angle = np.concatenate([middle - half, middle + half], axis=1) + form.psi[:, None]
-    reach = np.concatenate([half, half], axis=1) / 2
-    return _polished(form, angle, reach), np.concatenate([exists, exists], axis=1)
+    row, column = np.nonzero(exists)
+    reach = half[row, column % 2] / 2
+    angle[row, column] = _polished(form.take(row), angle[row, column], reach)
+    return angle, exists
 
 
 def _two_lines(form: Harmonics) -> tuple[Floats, Floats, Floats, Floats]:

@@ -4,17 +4,19 @@ The page is cut into square cells. Where a sphere covers a whole cell, everythin
 sphere is dropped when every cell it touches is blocked in front of it. No sphere that shows is ever dropped.
 """
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints
+from molviz.arrays import Bools, Floats, Ints, ShortInts
 from molviz.geometry.rows import blocks, expand
+from molviz.threads import in_threads
 from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.projection import Projection, images_of
 
 MOST_CELLS = 2048  # per axis
-BLOCK_ROWS = 1 << 19  # (sphere, cell) rows at a time
+BLOCK_ROWS = 1 << 15  # (sphere, cell) rows at a time: their columns stay in cache
 
 
 class _Cells(NamedTuple):
@@ -32,16 +34,25 @@ def possibly_visible(spheres: SphereOccluders, projection: Projection) -> Bools:
     cells = _cells(spheres, projection)
     count = int(cells.high[:, 1].max()) + 1
     nearest_cover = np.full(count * cells.wide, -np.inf)
-    touched = []
-    for sphere, cell, low in _rows(cells):
+
+    def bounds(block: slice) -> tuple[slice, ShortInts, Floats, ShortInts, Floats]:
+        sphere, cell, low = _rows(cells, block)
         least, most = spheres.surface_bounds(sphere, low, cells.side)
         covering = np.flatnonzero(least > -np.inf)
-        np.maximum.at(nearest_cover, cell[covering], least[covering])
-        touched.append((sphere, cell, most))
-    visible: Bools = np.zeros(len(cells.low), dtype=bool)
-    for sphere, cell, most in touched:
-        visible[sphere[most > nearest_cover[cell]]] = True
-    return visible
+        short = cell.astype(np.int32)  # all rows are kept: half the memory
+        return block, short, most, short[covering], least[covering]
+
+    touched = in_threads(bounds, _blocks(cells))
+    for _, _, _, covered, least in touched:
+        np.maximum.at(nearest_cover, covered, least)
+    seen = [_seen(cells, block, most > nearest_cover[cell]) for block, cell, most, _, _ in touched]
+    return np.concatenate(seen)
+
+
+def _seen(cells: _Cells, block: slice, shows: Bools) -> Bools:
+    """Which of some spheres show in one of their cells."""
+    number = np.prod(cells.high[block] - cells.low[block] + 1, axis=1)
+    return np.asarray(np.maximum.reduceat(shows, np.cumsum(number) - number))
 
 
 def _cells(spheres: SphereOccluders, projection: Projection) -> _Cells:
@@ -63,14 +74,16 @@ def outlines(spheres: SphereOccluders, projection: Projection) -> tuple[Floats, 
     return images.c, images.half_extent()
 
 
-def _rows(cells: _Cells) -> list[tuple[Ints, Ints, Floats]]:
-    """All (sphere, cell) of the bounding boxes with the cells' lower left corners, in blocks."""
-    width, height = (cells.high - cells.low + 1).T
-    rows = []
-    for block in blocks(width * height, BLOCK_ROWS):
-        sphere, place = expand(np.zeros_like(width[block]), (width * height)[block])
-        sphere += block.start
-        row, column = np.divmod(place, width[sphere])
-        x, y = cells.low[sphere, 0] + column, cells.low[sphere, 1] + row
-        rows.append((sphere, y * cells.wide + x, cells.origin + np.stack([x, y], axis=1) * cells.side))
-    return rows
+def _blocks(cells: _Cells) -> Iterator[slice]:
+    """Spheres whose bounding boxes touch about as many cells together."""
+    return blocks(np.prod(cells.high - cells.low + 1, axis=1), BLOCK_ROWS)
+
+
+def _rows(cells: _Cells, block: slice) -> tuple[Ints, Ints, Floats]:
+    """All (sphere, cell) of the bounding boxes of some spheres, with the cells' lower left corners."""
+    low = cells.low[block]
+    width, height = (cells.high[block] - low + 1).T
+    sphere, place = expand(np.zeros_like(width), width * height)
+    row, column = np.divmod(place, width[sphere])
+    x, y = low[sphere, 0] + column, low[sphere, 1] + row
+    return sphere + block.start, y * cells.wide + x, cells.origin + np.stack([x, y], axis=1) * cells.side

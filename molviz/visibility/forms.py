@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats
+from molviz.arrays import Floats, Ints
 
 
 class Linear(NamedTuple):
@@ -13,6 +13,10 @@ class Linear(NamedTuple):
     a: Floats
     b: Floats
     c: Floats
+
+    def take(self, rows: Ints) -> "Linear":
+        """Return the given rows, in that order."""
+        return Linear(*(column[rows] for column in self))
 
     def at(self, angle: Floats) -> Floats:
         """Return the values at angles (m, …)."""

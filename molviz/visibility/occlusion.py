@@ -9,6 +9,7 @@ from molviz.geometry.grid import Neighbours, neighbours
 from molviz.geometry.intervals import TURN, above
 from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
+from molviz.threads import in_threads
 from molviz.vectors import dot
 from molviz.visibility.conics import Harmonics, harmonics, roots
 from molviz.visibility.curves import Curves
@@ -18,7 +19,7 @@ from molviz.visibility.names import BALL, FRONT
 from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.projection import Projection, images_of
 
-BLOCK_ROWS = 1 << 16  # (curve, sphere) rows at a time, some forty columns each
+BLOCK_ROWS = 1 << 14  # (curve, sphere) rows at a time, some forty columns each: they stay in cache
 
 
 class Discs(NamedTuple):
@@ -68,8 +69,8 @@ def creases_hidden(
     image = discs_of(creases, projection)
     nearness = spheres.nearness()
     nearest = np.maximum(nearness[own], nearness[creases.second])
-    hidden = []
-    for block in blocks(near.start[own + 1] - near.start[own], 8 * BLOCK_ROWS):
+
+    def hidden_in(block: slice) -> list[Hidden]:
         row, entry = expand(near.start[own[block]], near.start[own[block] + 1])
         curve, sphere = row + block.start, near.item[entry]
         rows = np.flatnonzero(nearness[sphere] > nearest[curve])
@@ -77,11 +78,13 @@ def creases_hidden(
         apart = image.center[curve] - discs.center[sphere]
         reach = image.radius[curve] + discs.radius[sphere]
         rows = np.flatnonzero(dot(apart, apart) < reach**2)
-        hidden += [
+        return [
             occlusion(spheres, creases, curve[part], sphere[part])
             for part in np.array_split(rows, len(rows) // BLOCK_ROWS + 1)
         ]
-    return hidden
+
+    found = in_threads(hidden_in, blocks(near.start[own + 1] - near.start[own], 8 * BLOCK_ROWS))
+    return [part for block in found for part in block]
 
 
 def occlusion(spheres: SphereOccluders, curves: Curves, curve: Ints, sphere: Ints) -> Hidden:
@@ -98,9 +101,10 @@ def occlusion(spheres: SphereOccluders, curves: Curves, curve: Ints, sphere: Int
     last = np.arange(ends.shape[1]) == np.sum(~np.isnan(ends), axis=1)[:, None] - 1
     sweep = np.where(last, ends[:, :1] + TURN - ends, sweep)
     start, sweep = _without_ends(ends, sweep)
-    middle = start + sweep / 2
-    hidden = (cone.at(middle) < 0) & (plane.at(middle) > 0)
-    row, column = np.nonzero(hidden)
+    row, column = np.nonzero(~np.isnan(sweep))
+    middle = start[row, column] + sweep[row, column] / 2
+    hidden = (cone.take(row).at(middle) < 0) & (plane.take(row).at(middle) > 0)
+    row, column = row[hidden], column[hidden]
     name = sphere[row]
     reason = np.full(len(row), FRONT)
     return Hidden(curve[row], start[row, column], sweep[row, column], reason, name, name)

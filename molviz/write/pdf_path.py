@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from molviz.arrays import Bools, Texts
+from molviz.arrays import Bools, Words
 from molviz.curves import Paths
+from molviz.write.columns import Formatted, formatted, in_loops, spaced_rows, word
 from molviz.write.ellipse import (
     bezier_handles,
     bezier_pieces,
@@ -13,28 +14,25 @@ from molviz.write.ellipse import (
     starts_and_ends,
     with_straight_pieces,
 )
-from molviz.write.text import numbers
 
 PLACES = 3
 
 
 def shape_texts(paths: Paths) -> list[str]:
-    """Return the operators of the loops of each shape."""
-    loops, bounds = loop_texts(paths), paths.shape_start.tolist()
-    return ["\n".join(filter(None, loops[first:stop])) for first, stop in zip(bounds, bounds[1:], strict=False)]
+    """Return the operators of each shape, without the end of the last line."""
+    return [text.removesuffix("\n") for text in formatted(paths, loop_texts).pieces(paths.shape_start)]
 
 
-def loop_texts(paths: Paths) -> list[str]:
+def loop_texts(paths: Paths) -> Formatted:
     """Return the operators of each loop, empty where it has no arc."""
     paths, straight = as_cubics(paths)
-    words, first, stop = arc_texts(paths, straight).tolist(), paths.loop_start[:-1], paths.loop_start[1:]
-    held = stop > first
-    rows = paths.arcs.take(first[held])
-    move = np.full(len(first), "", dtype=object)
-    move[held] = joined(numbers(rows.at(rows.start), PLACES)) + " m\n"
-    bodies = ["\n".join(words[a:b]) for a, b in zip(first.tolist(), stop.tolist(), strict=True)]
-    ends = np.where(closed_loops(paths), " h", "").tolist()
-    return [start + text + end if text else "" for start, text, end in zip(move.tolist(), bodies, ends, strict=True)]
+    start = paths.loop_start
+    held = start[1:] > start[:-1]
+    rows = paths.arcs.take(start[:-1][held])
+    move = spaced_rows([(held, rows.starts(), word(" m\n"))], PLACES)
+    end = np.full(len(straight), word("\n"))
+    end[start[1:][held & closed_loops(paths)] - 1] = word(" h\n")
+    return in_loops(start, move, np.column_stack([arc_words(paths, straight), end]))
 
 
 def as_cubics(paths: Paths) -> tuple[Paths, Bools]:
@@ -44,15 +42,9 @@ def as_cubics(paths: Paths) -> tuple[Paths, Bools]:
     return in_equal_pieces(paths, count), np.repeat(straight, count)
 
 
-def arc_texts(paths: Paths, straight: Bools) -> Texts:
-    """Return the operator (k,) of each arc."""
+def arc_words(paths: Paths, straight: Bools) -> Words:
+    """Return the operator of each arc (k, w)."""
     end = starts_and_ends(paths)[1]
-    points = numbers(np.column_stack([*bezier_handles(paths.arcs), end]), PLACES)
-    return np.asarray(np.where(straight, joined(points[:, 4:]) + " l", joined(points) + " c"), dtype=object)
-
-
-def joined(words: Texts) -> Texts:
-    """Return the rows of words (k, m) as one text (k,) each."""
-    spaced = words.copy()
-    spaced[:, 1:] = " " + spaced[:, 1:]
-    return np.asarray(spaced.sum(axis=1), dtype=object)
+    points = np.column_stack([*bezier_handles(paths.arcs), end])
+    kinds = [(straight, points[straight, 4:], word(" l")), (~straight, points[~straight], word(" c"))]
+    return spaced_rows(kinds, PLACES)

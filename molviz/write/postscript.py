@@ -180,52 +180,57 @@ def pen(layer: StrokeLayer) -> str:
 def stacked(layer: StackedLayer, names: Names) -> Iterator[str]:
     """Yield the lines of a stacked layer, shape by shape: its fill, then its strokes over that."""
     fills, spread = layer.fills, layer.fills.spread
-    fill_loops, places, borders = shape_texts(fills.paths, True), origins(fills), border_colors(fills)
+    filled, places, borders = shape_texts(fills.paths, True), origins(fills), border_colors(fills)
     strokes = [(pen(one), shape_texts(one.paths, False)) for one in layer.strokes]
-    for shape, loops in enumerate(fill_loops):
+    for shape, path in enumerate(filled):
         yield from title_line(fills.mark[shape])
         paint = fills.paint[shape]
         if isinstance(paint, tuple):
-            yield from (color_text(paint), *loops, f"{number(spread, 3)} w b" if spread else "f")
+            yield from (color_text(paint), *present(path), f"{number(spread, 3)} w b" if spread else "f")
         else:
             yield f"{number(spread, 3)} w"
             border = borders[shape] if spread else None
-            yield from shaded(loops, border, f"{names[paint]} {place_text(places[shape])}")
+            yield from shaded(path, border, f"{names[paint]} {place_text(places[shape])}")
         for command, texts in strokes:
             if texts[shape]:
-                yield from (command, *(f"{loop} s" for loop in texts[shape]))
+                yield from (command, texts[shape])
 
 
 def stroked(layer: StrokeLayer) -> Iterator[str]:
     """Yield the lines of a stroke layer; every loop is stroked by itself, as old interpreters hold short paths only."""
-    for shape, loops in enumerate(shape_texts(layer.paths, False)):
+    for shape, path in enumerate(shape_texts(layer.paths, False)):
         if layer.mark:
             yield from title_line(layer.mark[shape])
         if layer.below:
             yield color_text(mixed_color(layer.below[shape], layer.color, layer.opacity))
-        yield from (f"{loop} s" for loop in loops)
+        yield from present(path)
 
 
 def filled(layer: FillLayer, names: Names) -> Iterator[str]:
     """Yield the lines of a fill layer."""
     current: Paint | None = None
     places, borders = origins(layer), border_colors(layer)
-    for shape, loops in enumerate(shape_texts(layer.paths, True)):
+    for shape, path in enumerate(shape_texts(layer.paths, True)):
         yield from title_line(layer.mark[shape])
         paint = layer.paint[shape]
         if not isinstance(paint, tuple):
             border = borders[shape] if layer.spread else None
-            yield from shaded(loops, border, f"{names[paint]} {place_text(places[shape])}")
+            yield from shaded(path, border, f"{names[paint]} {place_text(places[shape])}")
             continue
         if paint != current:
             current = paint
             yield color_text(paint)
-        yield from (*loops, "b" if layer.spread else "f")
+        yield from (*present(path), "b" if layer.spread else "f")
 
 
-def shaded(loops: list[str], border: Color | None, shading_and_place: str) -> Iterator[str]:
+def present(text: str) -> list[str]:
+    """Return a text as lines, none where it is empty."""
+    return [text] if text else []
+
+
+def shaded(path: str, border: Color | None, shading_and_place: str) -> Iterator[str]:
     """Yield the lines of a shape with a gradient, over a stroke in the colour of its border if it spreads."""
-    yield from ("gsave", *loops)
+    yield from ("gsave", *present(path))
     if border is not None:
         yield f"{color_text(border)} k"
     yield f"{shading_and_place} g"

@@ -1,54 +1,55 @@
 """Paths as PostScript: true arcs, one line of text per arc."""
 
+from functools import partial
+
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Texts
+from molviz.arrays import Bools, Words
 from molviz.curves import Paths, PlaneArcs
+from molviz.write.columns import Formatted, formatted, in_loops, spaced_rows, word, words
 from molviz.write.ellipse import THIN, closed_loops, on_axes, with_straight_pieces
-from molviz.write.text import numbers
+
+PLACES = 2
 
 
-def shape_texts(paths: Paths, filled: bool) -> list[list[str]]:
-    """Return the commands of the loops of each shape."""
-    loops, bounds = loop_texts(paths, filled), paths.shape_start.tolist()
-    return [list(filter(None, loops[first:stop])) for first, stop in zip(bounds, bounds[1:], strict=False)]
+def shape_texts(paths: Paths, filled: bool) -> list[str]:
+    """Return the lines of each shape, without the last one's end; every loop is stroked unless it is ``filled``."""
+    write = partial(loop_texts, filled=filled)
+    return [text.removesuffix("\n") for text in formatted(paths, write).pieces(paths.shape_start)]
 
 
-def loop_texts(paths: Paths, filled: bool) -> list[str]:
-    """Return the commands of each loop.
+def loop_texts(paths: Paths, filled: bool) -> Formatted:
+    """Return the lines of each loop.
 
     An arc starts a path by itself, but would be joined to the loop before it; a straight piece always needs a start.
     """
     paths, straight = with_straight_pieces(paths)
-    words, first, stop = arc_texts(paths.arcs, straight).tolist(), paths.loop_start[:-1], paths.loop_start[1:]
-    held, closed = stop > first, closed_loops(paths)
-    move = np.full(len(first), "", dtype=object)
+    start = paths.loop_start
+    held = start[1:] > start[:-1]
     moved = held.copy()
-    moved[held] &= filled | straight[first[held]]
-    rows = paths.arcs.take(first[moved])
-    move[moved] = phrase(rows.at(rows.start)) + " m\n"
-    bounds = zip(first.tolist(), stop.tolist(), strict=True)
-    bodies = ["\n".join(words[a:b]) for a, b in bounds]
-    ends = np.where(closed, " h", "").tolist()
-    return [start + text + end if text else "" for start, text, end in zip(move.tolist(), bodies, ends, strict=True)]
+    moved[held] &= filled | straight[start[:-1][held]]
+    first = paths.arcs.take(start[:-1][moved])
+    move = spaced_rows([(moved, first.starts(), word(" m\n"))], PLACES)
+    end = np.full((len(straight), 2), words("", "\n"))
+    last = start[1:][held] - 1
+    end[last, 0] = np.where(closed_loops(paths)[held], word(" h"), 0)
+    end[last, 1] = word("\n" if filled else " s\n")
+    return in_loops(start, move, np.column_stack([arc_words(paths.arcs, straight), end]))
 
 
-def phrase(values: Floats) -> Texts:
-    """Return the rows (k, m) of numbers as texts (k,), separated by spaces."""
-    words = numbers(values)
-    words[:, 1:] = " " + words[:, 1:]
-    return np.asarray(words.sum(axis=1), dtype=object)
-
-
-def arc_texts(arcs: PlaneArcs, straight: Bools) -> Texts:
-    """Return the command (k,) of each arc: circles by centre, radius and angles, ellipses under their own matrix."""
+def arc_words(arcs: PlaneArcs, straight: Bools) -> Words:
+    """Return the command of each arc (k, w): circles by centre, radius and angles, ellipses under their own matrix."""
     axes = on_axes(arcs)
     rotation, sweep = np.degrees(axes.rotation), np.degrees(axes.sweep)
-    circle = axes.major - axes.minor < THIN
-    start = np.mod(np.degrees(axes.start) + np.where(circle, rotation, 0.0), 360.0)
-    angles, forward = np.column_stack([start, start + sweep]), axes.sweep >= 0
-    as_circle = phrase(np.column_stack([arcs.c, axes.major, angles])) + np.where(forward, " A", " N").astype(object)
-    shape = np.column_stack([angles, axes.major, axes.minor, rotation, arcs.c])
-    as_ellipse = phrase(shape) + np.where(forward, " E", " F").astype(object)
-    as_line = phrase(arcs.at(arcs.start + arcs.sweep)) + " l"
-    return np.asarray(np.where(straight, as_line, np.where(circle, as_circle, as_ellipse)), dtype=object)
+    round_ = axes.major - axes.minor < THIN
+    start = np.mod(np.degrees(axes.start) + np.where(round_, rotation, 0.0), 360.0)
+    angles, backward = np.column_stack([start, start + sweep]), (axes.sweep < 0).astype(int)
+    circle = np.column_stack([arcs.c, axes.major, angles])
+    ellipse = np.column_stack([angles, axes.major, axes.minor, rotation, arcs.c])
+    is_circle, is_ellipse = round_ & ~straight, ~round_ & ~straight
+    kinds = [
+        (straight, arcs.ends()[straight], word(" l")),
+        (is_circle, circle[is_circle], words(" A", " N")[backward[is_circle]]),
+        (is_ellipse, ellipse[is_ellipse], words(" E", " F")[backward[is_ellipse]]),
+    ]
+    return spaced_rows(kinds, PLACES)

@@ -24,18 +24,18 @@ SHADE_PROCEDURES = r"""/I{newpath{exec}forall clip newpath}bind def
 def shade_lines(layer: ShadeLayer) -> Iterator[str]:
     """Yield the lines of a shade layer."""
     yield f"{number(SPREAD, 3)} w"
-    for row, loops in enumerate(shape_texts(layer.steps, True)):
-        yield from (f"/P{row}[", *procedures(loops), "]def")
+    for row, path in enumerate(shape_texts(layer.steps, True)):
+        yield from (f"/P{row}[", *procedures(path), "]def")
     yield "/U["
-    for loops, tone, clip in zip(shape_texts(layer.tone, True), layer.tone_color, layer.tone_clip, strict=True):
-        yield from ("[[", *procedures(loops), "][{} {} {}][{} {} {}]]".format(*tone, *layer.color[clip]))
+    for path, tone, clip in zip(shape_texts(layer.tone, True), layer.tone_color, layer.tone_clip, strict=True):
+        yield from ("[[", *procedures(path), "][{} {} {}][{} {} {}]]".format(*tone, *layer.color[clip]))
     yield "]def"
     yield from sets_of_steps(layer.opacity, 0, 1.0)
 
 
-def procedures(loops: list[str]) -> Iterator[str]:
+def procedures(path: str) -> Iterator[str]:
     """Yield the procedures that together draw a path."""
-    lines = "\n".join(loops).split("\n")
+    lines = path.split("\n")
     for first in range(0, len(lines), LINES):
         yield from ("{", *lines[first : first + LINES], "}")
 

@@ -3,7 +3,6 @@
 import hashlib
 from collections import Counter
 from collections.abc import Sequence
-from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
@@ -31,6 +30,7 @@ from molviz.picture.picture import (
 from molviz.write.gzipped import gzipped
 from molviz.write.paint import origins
 from molviz.write.svg_gradient import gradient_element
+from molviz.write.svg_leaves import Leaves, element, title
 from molviz.write.svg_path import path_data
 from molviz.write.text import clean, number, token
 
@@ -69,7 +69,7 @@ def finished(drawing: Drawing, elements: "Elements", more: str = "") -> bytes:
     """
     if elements.rules or more:
         drawing.defs.add(Style("".join(f".{name}{{{rule}}}" for rule, name in elements.rules.items()) + more))
-    text = f'<?xml version="1.0" encoding="utf-8"?>\n{drawing.tostring()}\n'
+    text = f'<?xml version="1.0" encoding="utf-8"?>\n{elements.leaves.put_into(drawing.tostring())}\n'
     drawn = text[text.index("<defs") :]  # and not what drew it
     letters = "".join(chr(ord("a") + int(digit, 16)) for digit in hashlib.sha256(drawn.encode()).hexdigest()[:4])
     return text.replace(OWN, letters).encode()
@@ -107,6 +107,7 @@ class Elements:
 
     def __init__(self, drawing: Drawing) -> None:
         self.drawing = drawing
+        self.leaves = Leaves()
         self.taken: Counter[str] = Counter()
         self.rules: dict[str, str] = {}  # style rule → name of the class that stands for it
         self.servers: dict[Gradient, str] = {}  # gradient → its id
@@ -153,30 +154,29 @@ class Elements:
     def lines(self, layer: Group, data: Sequence[str], marks: Sequence[Mark]) -> None:
         """Add stroked shapes; without marks all of them are one path."""
         if not marks:
-            layer.add(Path("".join(data), factory=self.drawing))
+            self.leaves.add(layer, element("path", {"d": "".join(data)}))
         nest = Nest(self, layer)
         for d, mark in zip(data, marks, strict=False):
             if d:
-                nest.enter(mark.groups).add(self.named(Path(d, factory=self.drawing), mark, ()))
+                self.leaves.add(nest.enter(mark.groups), self.named("path", {"d": d}, mark, ()))
 
     def regions(self, layer: Group, fills: FillLayer, height: float) -> None:
         """Add filled shapes in their groups."""
         nest, looks = Nest(self, layer), self.looks(fills)
         for path, mark, paint in zip(self.fill_paths(fills, height), fills.mark, fills.paint, strict=True):
-            if path is not None:
+            if path["d"]:
                 name, attributes = looks[paint]
-                path.update(attributes)
-                nest.enter(mark.groups).add(self.named(path, mark, name))
+                self.leaves.add(nest.enter(mark.groups), self.named("path", path | attributes, mark, name))
 
-    def fill_paths(self, fills: FillLayer, height: float) -> list[Any]:
-        """Return the element of each filled shape, None where nothing is left.
+    def fill_paths(self, fills: FillLayer, height: float) -> list[dict[str, str]]:
+        """Return the path of each filled shape as attributes.
 
         One with a gradient is drawn about its origin, where the gradient is, and then moved.
         """
         data, places = path_data(about_origins(fills, height), height), origins(fills).tolist()
-        paths = [Path(d, factory=self.drawing) if d else None for d in data]
+        paths = [{"d": d} for d in data]
         for path, paint, (x, y) in zip(paths, fills.paint, places, strict=True):
-            if path is not None and not isinstance(paint, tuple):
+            if not isinstance(paint, tuple):
                 path["transform"] = f"translate({number(x)},{number(height - y)})"
         return paths
 
@@ -200,13 +200,9 @@ class Elements:
         strokes = [(self.rule(stroke_rule(one)), path_data(one.paths, height)) for one in stacked.strokes]
         for row, (mark, paint) in enumerate(zip(stacked.fills.mark, stacked.fills.paint, strict=True)):
             name, attributes = looks[paint]
-            group = self.named(Group(factory=self.drawing, **attributes), mark, name)
-            if fills[row] is not None:
-                group.add(fills[row])
-            for stroke, data in strokes:
-                if data[row]:
-                    group.add(Path(data[row], class_=stroke, factory=self.drawing))
-            layer.add(group)
+            parts = [element("path", fills[row])] if fills[row]["d"] else []
+            parts += [element("path", {"class": stroke, "d": data[row]}) for stroke, data in strokes if data[row]]
+            self.leaves.add(layer, self.named("g", attributes, mark, name, "".join(parts)))
 
     def looks(self, fills: FillLayer) -> dict[Paint, tuple[tuple[str, ...], dict[str, str]]]:
         """Return classes and attributes that give a shape each paint: a class for those that come often."""
@@ -222,9 +218,9 @@ class Elements:
         if isinstance(paint, tuple):
             return hexadecimal(paint)
         if paint not in self.servers:
-            element = gradient_element(paint, self.own_id("gradient"))
-            self.drawing.defs.add(element)
-            self.servers[paint] = element.get_funciri()
+            server = gradient_element(paint, self.own_id("gradient"))
+            self.drawing.defs.add(server)
+            self.servers[paint] = server.get_funciri()
         return self.servers[paint]
 
     def rule(self, text: str) -> str:
@@ -235,14 +231,12 @@ class Elements:
         """Return an empty group with an id like ``name``."""
         return Group(id=self.fresh_id(name), factory=self.drawing, **attributes)
 
-    def named(self, element: Any, mark: Mark, more: tuple[str, ...]) -> Any:
-        """Return the element with the mark's id, classes and title, and ``more`` classes."""
-        element["id"] = self.fresh_id(mark.id)
-        if mark.classes or more:
-            element["class"] = " ".join([*map(token, mark.classes), *more])
-        if mark.title:
-            element.set_desc(clean(mark.title))
-        return element
+    def named(
+        self, name: str, attributes: dict[str, str], mark: Mark, classes: tuple[str, ...], content: str = ""
+    ) -> str:
+        """Return an element with the mark's id, classes and title, and more ``classes``."""
+        own = {"id": self.fresh_id(mark.id), "class": " ".join([*map(token, mark.classes), *classes])}
+        return element(name, attributes | own, title(mark.title) + content)
 
 
 class Nest:

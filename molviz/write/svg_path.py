@@ -4,9 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Texts
+from molviz.arrays import Bools, Floats, Ints, Words
 from molviz.curves import Paths, PlaneArcs
 from molviz.vectors import cross, dot
+from molviz.write.columns import Formatted, beside_each_other, formatted, in_loops, number_words, steps_of, word, words
 from molviz.write.ellipse import (
     AxisArcs,
     closed_loops,
@@ -16,7 +17,6 @@ from molviz.write.ellipse import (
     starts_and_ends,
     with_straight_pieces,
 )
-from molviz.write.text import dictionary
 
 STRAY = 0.01  # points: how far rounding may move the middle of an arc before the arc is cut in two
 FLAT = 0.01  # points: an arc that leaves its chord by less is the chord, as rounding moves its ends as far
@@ -128,53 +128,57 @@ def settled(paths: Paths) -> tuple[Paths, Bools, Commands]:
         allowed = np.where(is_half(arcs.sweep), 2 * STRAY, STRAY)  # all that is wrong with a half is its radii
         stray = (np.hypot(*(drawn_middle(command) - middle).T) > allowed) & ~straight
         if not stray.any():
-            break
+            return paths, straight, command
         count = np.where(stray, 2, 1)
         paths, straight = in_equal_pieces(paths, count), np.repeat(straight, count)
         straight |= flat(paths.arcs)
     return paths, straight, commands(paths, straight)
 
 
-def joined(values: Floats) -> Texts:
-    """Return the texts (k,) of rows of numbers (k, m), separated only where the grammar needs it.
+def joined(steps: Ints, first: bool | Bools) -> Words:
+    """Return rows of numbers in hundredths (k, m) as words, separated only where the grammar needs it.
 
-    A minus starts a number by itself, and so does a point after a number that had one.
+    A minus starts a number by itself, and so does a point after a number that had one. A blank before the ``first``
+    is wanted or not, for each row; in no case before a minus.
     """
-    words, index = dictionary(values, 2)
-    pointed = np.array(["." in word for word in words], dtype=bool)[index]
-    apart = np.array([not word.startswith(("-", ".")) for word in words], dtype=bool)[index]
-    leading = np.array([word.startswith(".") for word in words], dtype=bool)[index]
-    apart[:, 1:] |= leading[:, 1:] & ~pointed[:, :-1]
-    apart[:, 0] = False
-    spaced = np.where(apart, " " + words[index], words[index])
-    return np.asarray(spaced.sum(axis=1))
+    leading, pointed = (steps > 0) & (steps < 100), steps % 100 != 0
+    spaced = (steps >= 0) & ~leading
+    spaced[:, 1:] |= leading[:, 1:] & ~pointed[:, :-1]
+    spaced[:, 0] = first & (steps[:, 0] >= 0)
+    return beside_each_other(number_words(steps, 2, spaced))
 
 
-def command_texts(command: Commands) -> Texts:
-    """Return one text (k,) per command, empty where start and end are the same."""
-    step = np.round(command.end - command.start, 2)
-    shape = joined(np.column_stack([command.radius, command.rotation]))
-    flags = np.array([" 0 0", " 0 1", " 1 0", " 1 1"], dtype=object)[2 * command.large + command.positive]
-    gap = np.where(step[:, 0] < 0, "", " ").astype(object)  # legal without, but not every program reads it
-    line = "l" + joined(step)
-    arc = "a" + shape + flags + gap + joined(step)
-    text = np.where(command.radius[:, 0] > 0, arc, line)
-    return np.where((step == 0).all(axis=1), "", text)
+def command_words(command: Commands) -> tuple[Words, Bools]:
+    """Return one row of words (k, w) per command, and which commands (k,) go anywhere: the others have no letters."""
+    step = steps_of(command.end - command.start, 2)
+    going, arc = (step != 0).any(axis=1), command.radius[:, 0] > 0
+    shape = joined(steps_of(np.column_stack([command.radius, command.rotation]), 2), False)
+    flags = words(" 0 0", " 0 1", " 1 0", " 1 1")[2 * command.large + command.positive]
+    shape[~arc], flags[~arc] = 0, 0
+    letter = words("l", "a")[arc.astype(int)]
+    table = np.column_stack([letter, shape, flags, joined(step, arc)])  # a blank before the step: not all read without
+    table[~going] = 0
+    return table, going
 
 
-def loop_texts(paths: Paths, command: Commands) -> list[str]:
+def loop_texts(paths: Paths, command: Commands) -> Formatted:
     """Return the path data of each loop, empty where no command is left."""
-    words, first, stop = command_texts(command).tolist(), paths.loop_start[:-1], paths.loop_start[1:]
-    held, closed = stop > first, closed_loops(paths)
-    move = np.full(len(first), "", dtype=object)
-    move[held] = "M" + joined(command.start[first[held]])
-    bodies = ["".join(words[a:b]) for a, b in zip(first.tolist(), stop.tolist(), strict=True)]
-    rows = zip(move.tolist(), bodies, closed.tolist(), strict=True)
-    return [f"{start}{body}{'z' if is_closed else ''}" if body else "" for start, body, is_closed in rows]
+    commands, going = command_words(command)
+    start = paths.loop_start
+    drawn = np.diff(np.concatenate([[0], np.cumsum(going)])[start]) > 0
+    end = np.zeros(len(commands), dtype=np.uint32)
+    end[start[1:][drawn & closed_loops(paths)] - 1] = word("z")
+    coordinates = joined(steps_of(command.start[start[:-1][drawn]], 2), False)
+    move = np.zeros((len(drawn), 1 + coordinates.shape[1]), dtype=np.uint32)
+    move[drawn, 0], move[drawn, 1:] = word("M"), coordinates
+    return in_loops(start, move, np.column_stack([commands, end]))
 
 
 def path_data(paths: Paths, height: float) -> list[str]:
     """Return the ``d`` attribute of each shape for a page of that height (points), empty where nothing is left."""
-    paths, _, command = settled(paths._replace(arcs=y_down(paths.arcs, height)))
-    loops, bounds = loop_texts(paths, command), paths.shape_start.tolist()
-    return ["".join(loops[first:stop]) for first, stop in zip(bounds, bounds[1:], strict=False)]
+
+    def write(block: Paths) -> Formatted:
+        block, _, command = settled(block._replace(arcs=y_down(block.arcs, height)))
+        return loop_texts(block, command)
+
+    return formatted(paths, write).pieces(paths.shape_start)

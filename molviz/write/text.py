@@ -4,10 +4,6 @@ import re
 import unicodedata
 from functools import cache
 
-import numpy as np
-
-from molviz.arrays import Floats, Ints, Texts
-
 PLAIN = {"′": "'", "″": "''", "’": "'", "‘": "'", "“": '"', "”": '"', "–": "-", "—": "-", "−": "-", "×": "x", "·": "."}
 NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
@@ -19,20 +15,6 @@ def number(value: float, places: int = 2) -> str:
     if text.startswith("0."):
         return text[1:]
     return "-" + text[2:] if text.startswith("-0.") else "0" if text == "-0" else text
-
-
-def dictionary(values: Floats, places: int) -> tuple[Texts, Ints]:
-    """Return the different texts among rounded values, and which one (same shape as values) each value has."""
-    whole, index = np.unique(np.rint(values * 10.0**places).astype(np.int64), return_inverse=True)
-    words = np.empty(len(whole), dtype=object)
-    words[:] = [number(step, places) for step in (whole / 10**places).tolist()]
-    return words, index.reshape(values.shape)
-
-
-def numbers(values: Floats, places: int = 2) -> Texts:
-    """Return the texts of values of any shape, as ``number`` writes them."""
-    words, index = dictionary(values, places)
-    return words[index]
 
 
 def clean(text: str) -> str:

@@ -1,7 +1,7 @@
 """How wide text is: advances of the font that the writers embed, which has the widths of Helvetica and Arial."""
 
 from functools import cache
-from importlib import resources
+from pathlib import Path
 
 UNITS = 2048  # of the font's design space, to the size of the text
 UNKNOWN = 2048  # the advance of characters that the font lacks: viewers show a square letter of another font
@@ -14,7 +14,7 @@ ELLIPSIS = "…"
 @cache
 def _advances() -> dict[str, int]:
     """The advance of each character; a line of the table is an advance and its code points in hexadecimal."""
-    table = resources.files("molviz.picture.furniture").joinpath("advances.txt").read_text(encoding="ascii")
+    table = Path(__file__).with_name("advances.txt").read_text(encoding="ascii")
     advances: dict[str, int] = {}
     for line in table.splitlines():
         advance, *spans = line.split()
