@@ -69,8 +69,8 @@ gallery: $(VENV)/developed ## redraw the README's pictures into docs/
 		--width 10cm $(PAPER) -o docs/labels.svg
 	$(MOLVIZ) draw samples/caffeine.xyz --rep ball-and-stick --width 8cm -o docs/bonds.svg
 	$(MOLVIZ) draw samples/caffeine.xyz --rep sticks --style shaded --width 8cm -o docs/sticks.svg
-	$(MOLVIZ) draw samples/1hpv.pdb.gz --select 'within 4.5 of resn 478' --rep sticks --rep 'resn 478=ball-and-stick' \
-		--color 'resn 478 and element C=orange' --width 10cm $(PAPER) -o docs/pocket.svg
+	$(MOLVIZ) draw samples/1hpv.pdb.gz --select 'byres (within 4 of ligand)' --rep sticks --rep ligand=ball-and-stick \
+		--style cel --color-by element --color 'ligand and elem C=orange' --width 10cm $(PAPER) -o docs/pocket.svg
 	$(MOLVIZ) draw samples/1a8o.pdb --style flat --color-by exposure --legend --width 10cm $(PAPER) -o docs/flat.svg
 	$(MOLVIZ) draw samples/1a8o.pdb --style print --width 8cm $(PAPER) -o docs/print.svg
 	$(MOLVIZ) draw samples/c60.xyz --style hatch --perspective 15 --width 8cm $(PAPER) -o docs/hatch.svg

@@ -189,9 +189,9 @@ class MapComposer:
 
     def atoms(self) -> FillLayer:
         """Return one shape per visible atom, ordered by chain and residue so that these can be groups."""
-        seen = self.map if self.options.is_mask else self.solids.of_spheres()
+        seen = self.map.merged() if self.options.is_mask else self.solids.of_spheres()
         face = seen.loops.face
-        keep = np.flatnonzero((face != BACKGROUND) & ~self.sliver)
+        keep = np.flatnonzero((face != BACKGROUND) & ~slivers(seen))
         rank = _file_order(self.subject.molecule)[self.subject.atom]
         order = keep[np.argsort(rank[face[keep]], kind="stable")]
         shape = np.cumsum(np.append(False, np.diff(face[order]) != 0)[: len(order)])

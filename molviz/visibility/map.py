@@ -12,7 +12,7 @@ from molviz.arrays import Bools, Ints
 from molviz.curves import PlaneArcs
 from molviz.geometry.boundary import Boundary
 from molviz.geometry.grid import Neighbours
-from molviz.geometry.planar_map import Loops, PlanarMap, loops, planar_map
+from molviz.geometry.planar_map import Loops, PlanarMap, loops, merged_faces, planar_map
 from molviz.model.spheres import Spheres
 from molviz.visibility.curves import HORIZON, LINE, Curves
 from molviz.visibility.junctions import CurveArcs, split_at_junctions
@@ -65,6 +65,11 @@ class VisibilityMap(NamedTuple):
     def by_sphere(self) -> "VisibilityMap":
         """Return the map with the halves of sticks counted as parts of their balls' faces; arcs stay as they are."""
         return self._with_faces(self.owner())
+
+    def merged(self) -> "VisibilityMap":
+        """Return the map with neighbouring faces of one label as one face; arcs between them bound nothing."""
+        edges = merged_faces(self.edges, self.edges.face)
+        return self._replace(edges=edges, loops=loops(edges))
 
     def of_spheres(self) -> "VisibilityMap":
         """Return the map with the halves of sticks counted as background."""
