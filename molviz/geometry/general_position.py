@@ -17,6 +17,7 @@ from molviz.model.spheres import Spheres
 
 DISPLACEMENT = 5e-5  # of a sphere's radius: 1e-4 Å for an atom, below a file's precision and far above rounding
 NUDGE = 2e-8  # of a radius, for numbers: below 1e-7 Å for balls up to 5 Å, and above COINCIDE, where ties have rules
+GROWTH = 2.0  # of the displacement from one attempt to the next: in crystals along axes its square decides, too small
 ATTEMPTS = 8  # copies tried; of a molecule the second is needed about once in ten thousand pictures
 
 T = TypeVar("T")
@@ -48,8 +49,13 @@ def general_position(spheres: Spheres, attempt: int = 0) -> tuple[Spheres, Ints]
     rows = _first_of_each(spheres)
     radius = spheres.radius[rows]
     direction = _unit_vectors(rows, attempt)
-    center = spheres.center[rows] + direction * (DISPLACEMENT * radius)[:, None]
-    return Spheres(center, radius * (1.0 - 1.01 * DISPLACEMENT)), rows
+    center = spheres.center[rows] + direction * (DISPLACEMENT * GROWTH**attempt * radius)[:, None]
+    return Spheres(center, radius * shrinkage(attempt)), rows
+
+
+def shrinkage(attempt: int) -> float:
+    """Return by what the radii of an attempt are multiplied."""
+    return 1.0 - 1.01 * DISPLACEMENT * GROWTH**attempt
 
 
 def nudged(spheres: Spheres, times: Ints) -> Spheres:

@@ -17,7 +17,9 @@ from molviz.visibility.solids import Solids
 from molviz.visibility.view import View
 
 AREA_TOLERANCE = 1e-9  # of the drawing's area, by which two ways of computing it may differ
-SIDE_STEP = 1e-7  # of an arc's size: how far beside its middle the faces are looked up, less than slivers are wide
+# Of an arc's size: how far beside its middle the faces are looked up. Slivers between lines that nearly coincide, as
+# those of a crystal seen along its planes do, may be thinner than the first.
+SIDE_STEPS = (1e-7, 1e-8, 1e-9)
 LEAST_STEP = 1e-10  # of the largest sphere: shorter steps drown in rounding
 CLEAR = 1e-3  # of the step, by which one surface must be nearer than the others to be called the nearest
 
@@ -68,21 +70,27 @@ def arcs_beside_wrong_faces(view_map: VisibilityMap, view: View) -> Ints:
     Arcs that are too short to step beside are left out, points at which two surfaces are closer than the step, and rims
     of joints and of sticks beside the line of centres.
     """
-    arcs = view_map.arcs
+    rows = np.flatnonzero(~_near_rims(view_map)[view_map.curve_arcs.curve])
+    for step in SIDE_STEPS:
+        if len(rows):
+            rows = rows[_wrong_beside(view_map, view, rows, step)]
+    return rows
+
+
+def _wrong_beside(view_map: VisibilityMap, view: View, rows: Ints, step: float) -> Bools:
+    """Which of the given arcs have another face than the map says, a step of their size beside their middles."""
+    arcs = view_map.arcs.take(rows)
     middle = arcs.middle()
     along = arcs.tangent(middle)
     size = length(along)
-    step = SIDE_STEP * size * np.minimum(np.abs(arcs.sweep), 1.0)
-    curve = view_map.curve_arcs.curve
-    rows = np.flatnonzero((step > LEAST_STEP * view_map.spheres.radius.max()) & ~_near_rims(view_map)[curve])
-    left = np.column_stack([-along[rows, 1], along[rows, 0]]) / size[rows, None] * step[rows, None]
+    apart = step * size * np.minimum(np.abs(arcs.sweep), 1.0)
+    left = np.column_stack([-along[:, 1], along[:, 0]]) / size[:, None] * apart[:, None]
     own = view_map.curves.first[view_map.curve_arcs.curve[rows]]
     wrong = np.zeros(len(rows), dtype=bool)
     for side, face in ((1.0, view_map.left), (-1.0, view_map.right)):
-        points = arcs.take(rows).at(middle[rows]) + side * left
-        margin, nearest = _nearest_surface(view_map, own, points, view)
-        wrong |= _differ(view_map, nearest, face[rows]) & (margin > CLEAR * step[rows])
-    return rows[wrong]
+        margin, nearest = _nearest_surface(view_map, own, arcs.at(middle) + side * left, view)
+        wrong |= _differ(view_map, nearest, face[rows]) & (margin > CLEAR * apart)
+    return np.asarray(wrong & (apart > LEAST_STEP * view_map.spheres.radius.max()))
 
 
 def _near_rims(view_map: VisibilityMap) -> Bools:

@@ -14,6 +14,7 @@ from molviz.geometry.boundary import Boundary
 from molviz.geometry.grid import Neighbours
 from molviz.geometry.planar_map import Loops, PlanarMap, loops, merged_faces, planar_map
 from molviz.model.spheres import Spheres
+from molviz.visibility.bounds import Bounds
 from molviz.visibility.curves import HORIZON, LINE, Curves
 from molviz.visibility.junctions import CurveArcs, split_at_junctions
 from molviz.visibility.named_arcs import Hidden, joined, visible_arcs
@@ -25,7 +26,13 @@ from molviz.visibility.settle import settle_ends
 from molviz.visibility.solids import BACKGROUND as BACKGROUND
 from molviz.visibility.solids import Solids
 from molviz.visibility.stick_curves import caps_on_horizons, halving, hidden_of_own, stick_curves
-from molviz.visibility.stick_occlusion import hidden_by_spheres, hidden_by_sticks, sticks_before, sticks_before_spheres
+from molviz.visibility.stick_occlusion import (
+    hidden_by_spheres,
+    hidden_by_sticks,
+    sticks_before,
+    sticks_before_spheres,
+    within_bounds,
+)
 from molviz.visibility.view import View
 
 
@@ -123,23 +130,24 @@ def map_in_view(
         *creases_hidden(spheres, creases, projection, near, discs),
     ]
     curves = creases.followed_by(horizons)
+    bounds = solids.bounds(projection, view)
     if len(solids.sticks.length):
-        near = solids.overlaps(projection, view)
-        curves, more = _with_sticks(solids, creases, horizons, near)
+        in_front, near = bounds.neighbours()
+        curves, more = _with_sticks(solids, creases, horizons, in_front, bounds, projection)
         parts += more
     named = visible_arcs(curves, np.arange(len(curves.first)), joined(parts), solids.balls)
     settle_ends(named, curves, solids.sticks, solids.balls)
     curve_arcs, entered = split_at_junctions(named, curves, solids, view.distance is not None)
-    sides = _sides(solids, curves, curve_arcs, entered, near, projection)
+    sides = _sides(solids, curves, curve_arcs, entered, near, projection, bounds)
     return _assembled(solids, curves, curve_arcs, np.append(label, BACKGROUND)[sides], projection)
 
 
 def _with_sticks(
-    solids: Solids, creases: Curves, horizons: Curves, near: Neighbours
+    solids: Solids, creases: Curves, horizons: Curves, near: Neighbours, bounds: Bounds, projection: Projection
 ) -> tuple[Curves, list[Hidden]]:
     """All curves, those of sticks after the others, and what sticks hide and what is hidden of them.
 
-    ``near`` are the overlaps of spheres and sticks on the page.
+    ``near`` are the spheres and sticks that may be in front of some of each, ``bounds`` what they keep within.
     """
     spheres, sticks, count = solids.spheres, solids.sticks, solids.balls
     of = stick_curves(sticks, halving(sticks, count), count)
@@ -148,11 +156,12 @@ def _with_sticks(
     curves = plain.followed_by(of.curves)
     own = caps_on_horizons(sticks, spheres, horizons, of, count)
     behind = sticks_before_spheres(sticks, plain.first, plain.second, near, count)
-    own_behind = sticks_before(sticks, of, near, count)
+    reached = within_bounds(of, near, bounds, projection, count)
+    own_behind = sticks_before(sticks, of, *reached, count)
     return curves, [
         own._replace(curve=own.curve + len(creases.first)),
         *hidden_of_own(sticks, spheres, of, start),
-        *hidden_by_spheres(spheres, sticks, of, near, start),
+        *hidden_by_spheres(spheres, sticks, of, *reached, start),
         *hidden_by_sticks(sticks, curves, *behind, count),
         *hidden_by_sticks(sticks, curves, own_behind[0] + start, own_behind[1], count),
     ]
@@ -186,6 +195,7 @@ def _sides(
     entered: Ints,
     near: Neighbours,
     projection: Projection,
+    bounds: Bounds,
 ) -> Ints:
     """The solids on the left and the right of each arc (2, k), BACKGROUND where there is none.
 
@@ -202,7 +212,7 @@ def _sides(
     own = solids.rows(left[rows])
     arc = curve_arcs.take(rows)
     arcs = arcs_on_page(curves, arc.curve, arc.start, arc.sweep, projection)
-    right[rows] = solids.nearest(near, own, arcs.at(arcs.middle()), projection)
+    right[rows] = solids.nearest(near, own, arcs.at(arcs.middle()), projection, bounds)
     for end, other in ((curve_arcs.origin, curve_arcs.target), (curve_arcs.target, curve_arcs.origin)):
         beside = rows[(entered[end[rows]] >= 0) & (entered[other[rows]] < 0)]
         right[beside] = entered[end[beside]]

@@ -8,7 +8,7 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.errors import InputError, InternalError
 from molviz.geometry.boundary import Boundary, union_boundary
-from molviz.geometry.general_position import DISPLACEMENT, first_general, general_position
+from molviz.geometry.general_position import first_general, general_position, shrinkage
 from molviz.model.spheres import Spheres
 from molviz.model.sticks import NO_STICKS, Sticks
 from molviz.visibility.culling import outlines, possibly_visible
@@ -84,7 +84,7 @@ class Scene:
 
 def _prepare(spheres: Spheres, sticks: Sticks, attempt: int, only: View | None) -> Prepared:
     displaced, row = general_position(spheres, attempt)
-    radius, offset = sticks.radius * (1.0 - 1.01 * DISPLACEMENT), sticks.offset * (1.0 - attempt * NARROWER)
+    radius, offset = sticks.radius * shrinkage(attempt), sticks.offset * (1.0 - attempt * NARROWER)
     sticks = sticks._replace(radius=radius, offset=offset).among(row, len(spheres.radius))
     if only is not None:
         keep = _wanted(displaced, sticks, only)

@@ -9,6 +9,7 @@ from molviz.geometry.grid import Neighbours
 from molviz.geometry.rows import expand
 from molviz.model.spheres import Spheres
 from molviz.vectors import dot
+from molviz.visibility.bounds import Bounds
 from molviz.visibility.eye import occluders_of
 from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.occluders.stick import StickOccluders
@@ -50,6 +51,23 @@ class Solids(NamedTuple):
             discs = Discs(*(np.concatenate(columns) for columns in zip(discs, around, strict=True)))
         return overlaps(discs)
 
+    def bounds(self, projection: Projection, view: View) -> Bounds:
+        """Return what n spheres and k sticks keep within; a stick between the images of spheres around its ends."""
+        sticks, images = self.sticks, discs_of(self.spheres.horizons(), projection)
+        end = sticks.start + sticks.direction * sticks.length[:, None]
+        first, second = (
+            discs_of(occluders_of(Spheres(center, sticks.radius), view).horizons(), projection)
+            for center in (sticks.start, end)
+        )
+        around = [self.spheres.spheres, self._around_sticks()]
+        center, radius = (np.concatenate(columns) for columns in zip(*around, strict=True))
+        nearness = projection.nearness(center)
+        return Bounds(
+            np.concatenate([images.center, first.center]), np.concatenate([images.center, second.center]),
+            np.concatenate([images.radius, np.maximum(first.radius, second.radius)]),
+            nearness - radius, nearness + radius,
+        )  # fmt: skip
+
     def _around_sticks(self) -> Spheres:
         """A sphere around each stick."""
         half = self.sticks.length / 2
@@ -90,13 +108,16 @@ class Solids(NamedTuple):
             nearness = np.where(under, np.minimum(nearness, ball - ABOVE), nearness)
         return nearness
 
-    def nearest(self, near: Neighbours, own: Ints, points: Floats, projection: Projection) -> Ints:
+    def nearest(self, near: Neighbours, own: Ints, points: Floats, projection: Projection, bounds: Bounds) -> Ints:
         """Return the solid seen at page points (m, 2) on the images of spheres or sticks ``own`` (m,), itself left out.
 
         BACKGROUND where there is none.
         """
         row, entry = expand(near.start[own], near.start[own + 1])
-        surface, solid = self.surfaces(near.item[entry], points[row], projection)
+        item = near.item[entry]
+        inside = np.flatnonzero(bounds.meet_discs(item, points[row], np.zeros(len(row))))
+        row, item = row[inside], item[inside]
+        surface, solid = self.surfaces(item, points[row], projection)
         rows = np.flatnonzero(surface > -np.inf)
         rows = rows[np.lexsort((surface[rows], row[rows]))]
         nearest = np.full(len(own), BACKGROUND)

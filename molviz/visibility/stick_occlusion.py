@@ -6,16 +6,19 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.grid import Neighbours
 from molviz.geometry.intervals import TURN, above
 from molviz.geometry.rows import expand
-from molviz.visibility.curves import Curves
+from molviz.visibility.bounds import Bounds
+from molviz.visibility.curves import LINE, Curves
 from molviz.visibility.forms import Linear
 from molviz.visibility.named_arcs import Hidden
 from molviz.visibility.names import FRONT
 from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.occluders.stick import LINES, StickOccluders
-from molviz.visibility.occlusion import BLOCK_ROWS, occlusion
+from molviz.visibility.occlusion import BLOCK_ROWS, discs_of, occlusion
+from molviz.visibility.projection import Projection
 from molviz.visibility.stick_curves import StickCurves
 
 CONDITIONS = 5
+SILHOUETTE_PLANE = 2  # the condition of being behind it
 NO_CONTOUR = -1  # an end that no contour explains; arcs that end there are degenerate
 
 
@@ -34,7 +37,7 @@ def _behind(sticks: StickOccluders, curves: Curves, curve: Ints, stick: Ints, co
     An end of one condition counts where the other four hold; between consecutive ones a curve is hidden or not as a
     whole. Where a curve passes behind one of the two lines is a T-junction; elsewhere balls hide it on either side.
     """
-    for some in (LINES, 3, 4, 0, 1):  # those that most rows fail come first
+    for some in (SILHOUETTE_PLANE, 3, 4, 0, 1):  # those that most rows fail come first
         margin = sticks.behind(curves, curve, stick, some)
         rows = np.flatnonzero(margin.c + np.hypot(margin.a, margin.b) > 0)
         curve, stick = curve[rows], stick[rows]
@@ -52,10 +55,37 @@ def _behind(sticks: StickOccluders, curves: Curves, curve: Ints, stick: Ints, co
     most = max(int(amount.max(initial=1)), 1)
     row, column = np.nonzero(_holds_at(margins, (start + sweep / 2)[:, :most]))
     after = np.where(column + 1 < np.maximum(amount, 1)[row], column + 1, 0)
-    condition = order // 2
-    enters, leaves = (_contour(condition[row, place], stick[row], count) for place in (column, after))
+    begins, ends = ((order // 2)[row, place] for place in (column, after))
     reason = np.full(len(row), FRONT)
-    return Hidden(curve[row], start[row, column], sweep[row, column], reason, leaves, enters)
+    enters, leaves = (_contour(condition, stick[row], count) for condition in (begins, ends))
+    found = Hidden(curve[row], start[row, column], sweep[row, column], reason, leaves, enters)
+    at_joint = _joint_sides(sticks, curves, found.curve, stick[row], count)
+    return _up_to_joints(found, at_joint, begins == SILHOUETTE_PLANE, ends == SILHOUETTE_PLANE)
+
+
+def _joint_sides(sticks: StickOccluders, curves: Curves, curve: Ints, stick: Ints, count: int) -> Ints:
+    """1 where a line begins in a joint that it shares with a stick, −1 where it ends in one, 0 for all others (m,)."""
+    side = np.zeros(len(curve), dtype=np.int64)
+    rows = np.flatnonzero(curves.kind[curve] == LINE)
+    for column, sign in ((curves.first, 1), (curves.second, -1)):
+        sphere = sticks.ends.sphere[column[curve[rows]] - count]
+        side[rows[_joint_of(sticks, stick[rows], sphere)]] = sign
+    return side
+
+
+def _up_to_joints(hidden: Hidden, side: Ints, begins: Bools, ends: Bools) -> Hidden:
+    """The same intervals, but for those that begin or end in the silhouette plane of another stick of the line's joint.
+
+    There the line is inside that stick, from its elbow to the joint; where it looks as if it were just on the elbow,
+    rounding would say which of the two comes first. So what is hidden behind the stick goes on to the joint, and what
+    would be hidden behind it nearer to the joint than that lies inside it anyway.
+    """
+    last = np.mod(hidden.start + hidden.sweep, TURN)
+    begins, ends = begins & (hidden.start < np.pi), ends & (last < np.pi)
+    before, after = np.where(begins & (side > 0), hidden.start, 0.0), np.where(ends & (side < 0), np.pi - last, 0.0)
+    hidden = hidden._replace(start=hidden.start - before, sweep=hidden.sweep + before + after)
+    rows = np.flatnonzero(~((ends & (side > 0)) | (begins & (side < 0))))
+    return Hidden(*(column[rows] for column in hidden))  # type: ignore[arg-type]
 
 
 def _ends(margins: list[Linear]) -> tuple[Floats, Bools]:
@@ -89,28 +119,29 @@ def _contour(condition: Ints, stick: Ints, count: int) -> Ints:
     return np.where(condition < LINES, count + 2 * stick + condition, NO_CONTOUR)
 
 
-def pairs_with_sticks(near: Neighbours, owner: Ints, first_stick: int) -> tuple[Ints, Ints]:
-    """Return (curve, stick) where the solid ``owner`` (m,) of a curve and the stick overlap on the page.
+def within_bounds(
+    of: StickCurves, near: Neighbours, bounds: Bounds, projection: Projection, count: int
+) -> tuple[Ints, Ints]:
+    """Return (curve, solid) of the curves of sticks and what may hide some of them, after ``count`` spheres the sticks.
 
-    Sticks are numbered from ``first_stick`` in ``near``; a curve's own is not listed.
+    ``near`` is what may be in front of some of each solid.
     """
-    curve, entry = expand(near.start[owner], near.start[owner + 1])
-    rows = near.item[entry] >= first_stick
-    return curve[rows], near.item[entry[rows]] - first_stick
+    curve, entry = expand(near.start[count + of.stick], near.start[count + of.stick + 1])
+    solid, discs = near.item[entry], discs_of(of.curves, projection)
+    met = bounds.meet_discs(solid, discs.center[curve], discs.radius[curve])
+    rows = np.flatnonzero(met | (of.curves.kind[curve] == LINE))
+    return curve[rows], solid[rows]
 
 
 def hidden_by_spheres(
-    spheres: SphereOccluders, sticks: StickOccluders, of: StickCurves, near: Neighbours, first_curve: int
+    spheres: SphereOccluders, sticks: StickOccluders, of: StickCurves, curve: Ints, solid: Ints, first_curve: int
 ) -> list[Hidden]:
     """Return what spheres hide of the curves of sticks, which are number ``first_curve`` onwards, in blocks.
 
     A joint lies inside the cylinders of its sticks, extended: it hides nothing of them. Rims lie on their own spheres.
     """
-    count = len(spheres.spheres.radius)
-    curve, entry = expand(near.start[count + of.stick], near.start[count + of.stick + 1])
-    sphere = near.item[entry]
-    rows = np.flatnonzero(sphere < count)
-    curve, sphere = curve[rows], sphere[rows]
+    rows = np.flatnonzero(solid < len(spheres.spheres.radius))
+    curve, sphere = curve[rows], solid[rows]
     own = _joint_of(sticks, of.stick[curve], sphere) | ((of.end[curve] >= 0) & (of.other[curve] < 0) & (
         sticks.ends.sphere[of.end[curve]] == sphere))  # fmt: skip
     margin = spheres.plane_margin(of.curves, curve, sphere)
@@ -122,12 +153,13 @@ def hidden_by_spheres(
     return [part._replace(curve=part.curve + first_curve) for part in parts]
 
 
-def sticks_before(sticks: StickOccluders, of: StickCurves, near: Neighbours, count: int) -> tuple[Ints, Ints]:
-    """Return the (curve, stick) of the curves of sticks and what sticks may hide them.
+def sticks_before(sticks: StickOccluders, of: StickCurves, curve: Ints, solid: Ints, count: int) -> tuple[Ints, Ints]:
+    """Return the (curve, stick) of the curves of sticks and what sticks may hide them, among (curve, solid).
 
     Neither of an elbow's own does, nor do sticks of a joint hide its rims, which lie on the ball outside of them all.
     """
-    curve, stick = pairs_with_sticks(near, count + of.stick, count)
+    rows = np.flatnonzero(solid >= count)
+    curve, stick = curve[rows], solid[rows] - count
     rim = (of.end[curve] >= 0) & (of.other[curve] < 0)
     sphere = sticks.ends.sphere[np.where(rim, of.end[curve], 0)]
     rows = np.flatnonzero((of.other[curve] != stick) & ~(rim & _joint_of(sticks, stick, sphere)))
@@ -139,7 +171,9 @@ def sticks_before_spheres(
 ) -> tuple[Ints, Ints]:
     """Return the (curve, stick) of creases and horizons and what sticks may hide them; no horizon its own sticks at a
     joint: what they hide lies inside them."""
-    curve, stick = pairs_with_sticks(near, first, count)
+    curve, entry = expand(near.start[first], near.start[first + 1])
+    rows = np.flatnonzero(near.item[entry] >= count)
+    curve, stick = curve[rows], near.item[entry[rows]] - count
     horizon = first[curve] == second[curve]
     rows = np.flatnonzero(~(horizon & _joint_of(sticks, stick, first[curve])))
     return curve[rows], stick[rows]
