@@ -1,5 +1,7 @@
 """Names of atoms for ids, tooltips, classes and layers."""
 
+import numpy as np
+
 from molviz.arrays import Ints
 from molviz.model.molecule import Molecule
 from molviz.picture.picture import Mark
@@ -24,10 +26,10 @@ def _mark(chain: str, name: str, residue: str, atom: str, element: str, row: int
 
 def bond_marks(molecule: Molecule, ends: Ints) -> list[Mark]:
     """Return a mark for each bond between atoms (k, 2): ``bond C1–N2``, with chain and residue where there are any."""
-    ids, short = [], []
+    ids, short, has_residues = [], [], bool(np.any(molecule.residue_name != ""))
     for mark, atom, row in zip(marks(molecule, False), molecule.atom_name.tolist(), molecule.row.tolist(), strict=True):
         ids.append(mark.id)
-        short.append(f"{mark.title.rpartition(' ')[0]} {atom}" if molecule.residue_name.any() else f"{atom}{row + 1}")
+        short.append(f"{mark.title.rpartition(' ')[0]} {atom}" if has_residues else f"{atom}{row + 1}")
     return [
         Mark(f"bond_{ids[one]}-{ids[other]}", f"bond {short[one]}–{short[other]}", ("bond",))
         for one, other in ends.tolist()

@@ -12,7 +12,7 @@ from molviz.picture.picture import Color, RadialGradient
 from molviz.picture.regions import closed_chains, shapes_of, stacked
 from molviz.picture.style import Light, Shade, ShadeStep, Style
 from molviz.visibility.eye import projection_of
-from molviz.visibility.horizon_runs import HorizonRuns
+from molviz.visibility.horizon_runs import ATOM, HorizonRuns
 from molviz.visibility.map import VisibilityMap
 from molviz.visibility.overlay import (
     drop_at_edge,
@@ -46,6 +46,8 @@ def contact_steps(
     """Return the steps of the contact shade that cover anything, one shape each, and their opacities."""
     seen = seen_spheres(view_map)
     spheres, jumps = view_map.spheres.take(seen), deepest_jumps(runs, len(view_map.spheres.radius))[seen]
+    if len(view_map.sticks.length):
+        jumps = np.where(spheres.radius >= ATOM, jumps, 0.0)  # those of small balls would lie on their sticks
     steps = shade.large_steps if len(seen) >= shade.large_from else shade.steps
     parts = [
         (_region(spheres, skirts(spheres, rows, step.reach, step.low, view), view, placement), step.opacity)
