@@ -25,6 +25,8 @@ HOMES = {
     "svgwrite": {"write"},
     "pydyf": {"write"},
     "fontTools": {"write"},
+    "trimesh": {"write"},
+    "mapbox_earcut": {"geometry"},
 }
 FILES = sorted(path for path in PACKAGE.rglob("*.py") if path.parent != PACKAGE or path.stem in STAGES)
 

@@ -118,7 +118,7 @@ def drawn_by(source: str) -> str:
 def read_by(options: dict[str, Any]) -> tuple[str, ...]:
     """Return the names of all files that a command reads: its inputs, and what its options name."""
     inputs = click.get_current_context().params.get("inputs", ())
-    return (*inputs, *(options[name] for name in ("style", "palette", "radii")))
+    return (*inputs, *(options[name] for name in ("style", "palette", "radii") if name in options))
 
 
 def refuse_shared_targets(inputs: tuple[str, ...], output: str, suffix: str, options: dict[str, Any]) -> None:

@@ -7,13 +7,24 @@ from typing import Any
 import click
 
 from molviz.cli.batch import for_each
-from molviz.cli.options import NOT_NEGATIVE, input_options_with, load_and_warn, shared
+from molviz.cli.draw import refuse_shared_targets
+from molviz.cli.options import NOT_NEGATIVE, POSITIVE, input_options_with, load_and_warn, shared
 from molviz.cli.progress import Progress
-from molviz.cli.telling import tell_csv, tell_json, visible
+from molviz.cli.telling import say, tell_csv, tell_json, visible
 from molviz.model.radii import TABLES
 from molviz.pipeline.inputs import WATER_RADIUS
-from molviz.pipeline.outputs import stem_of
-from molviz.pipeline.surface import PER, Component, Surface, atom_rows, surface_as_data, surface_of
+from molviz.pipeline.outputs import stem_of, target_of
+from molviz.pipeline.surface import (
+    EDGE,
+    MESHES,
+    PER,
+    Component,
+    Surface,
+    atom_rows,
+    suffix_of_mesh,
+    surface_as_data,
+    surface_of,
+)
 from molviz.pipeline.values import input_options_from
 
 Row = dict[str, Any]
@@ -26,6 +37,9 @@ probe_option = click.option(
 @click.command("surface")
 @click.argument("inputs", nargs=-1, required=True, metavar="INPUT...")
 @click.option("--per", type=click.Choice(PER), default=PER[0], show_default=True, help="Rows of --csv; atoms besides.")
+@click.option("-o", "--output", metavar="FILE", help="A mesh: .ply .obj .stl .glb; many: a folder's or {stem}.ply.")
+@click.option("--mesh", type=click.Choice(MESHES), default=MESHES[0], show_default=True, help="Which surface -o holds.")
+@click.option("--edge", type=POSITIVE, default=EDGE, show_default=True, metavar="LENGTH", help="Of its edges, in Å.")
 @click.option("--outer-only", is_flag=True, default=False, help="Roll over what the probe reaches from outside.")
 @shared("check", help="Verify that the surface is closed, and its area the slope of its volume.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on standard output.")
@@ -44,7 +58,12 @@ def surface_command(inputs: tuple[str, ...], per: str, as_json: bool, as_csv: bo
       molviz surface 4hhb.pdb --no-water
       molviz surface 4hhb.pdb --probe 1.2 --per atom --csv
       molviz surface 4hhb.pdb --probe 0 --json
+      molviz surface 4hhb.pdb --no-water -o 4hhb.glb --edge 0.4
     """
+    output = options["output"]
+    if output:
+        suffix_of_mesh(output)
+        refuse_shared_targets(inputs, output, suffix_of_mesh(output), options)
     if as_json and as_csv:
         raise click.UsageError("--json and --csv exclude each other")
     wanted = input_options_from(options)
@@ -55,14 +74,25 @@ def surface_command(inputs: tuple[str, ...], per: str, as_json: bool, as_csv: bo
         progress(f"reading {stem_of(source)}")
         models = load_and_warn(source, replace(wanted, probe=0.0), options["quiet"], options["strict"])
         progress(f"surface of {stem_of(source)}")
-        for loaded in models:
-            surfaces.append(surface_of(loaded, wanted.probe, options["outer_only"], options["check"]))
+        found = [surface_of(loaded, wanted.probe, options["outer_only"], options["check"]) for loaded in models]
+        if output:
+            _write(found, target_of(source, output, suffix_of_mesh(output)), options)
+        surfaces.extend(found)
 
     try:
         for_each(inputs, one)
     finally:
         progress.close()
         _tell(surfaces, wanted.radii, per, as_json, as_csv)
+
+
+def _write(surfaces: list[Surface], target: str, options: dict[str, Any]) -> None:
+    """Write the mesh of the one surface of an input, and say so."""
+    if len(surfaces) > 1:
+        raise click.UsageError(f"a mesh holds one model, not {len(surfaces)}; expected --model NUMBER")
+    surfaces[0].save(target, options["mesh"], options["edge"])
+    if not options["quiet"]:
+        say(f"{surfaces[0].source} -> {target}: {options['mesh']} surface")
 
 
 def _tell(surfaces: list[Surface], radii: str, per: str, as_json: bool, as_csv: bool) -> None:

@@ -11,16 +11,20 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
+from molviz.errors import InternalError
 from molviz.geometry.boundary_graph import BoundaryGraph
-from molviz.geometry.general_position import first_general
+from molviz.geometry.components import component_labels
 from molviz.geometry.planar_map import Loops
 from molviz.geometry.rows import expand, lists_taken
 from molviz.geometry.spherical_faces import SphericalFaces, loop_counts
-from molviz.geometry.triangulation import Regions, triangulated
+from molviz.geometry.triangulation import Coarse, Regions, triangulated
 from molviz.vectors import dot
 
 WIDEST = np.pi / 6  # of a piece of a curve: coarser polygons would cut across each other
 FINER = 2  # times as many pieces where a polygon meets itself all the same
+STRICT = (True,) * 4 + (False,) * 6  # whether polygons may not meet themselves: those next to no width always do
+WELD = 1e-4  # of the longest edge: points as near as that are one in the single precision of files
+NO_MESH = "some regions of the surface have no triangles that fit together"
 
 
 class Mesh(NamedTuple):
@@ -126,11 +130,18 @@ def boundary_mesh(graph: BoundaryGraph, face: Bools, longest: float) -> Mesh:
 
     Edges are no longer than ``longest`` ångström, and shorter where that is much of a ball's radius.
     """
-    return first_general(lambda attempt: _boundary_mesh(graph, face, longest, FINER**attempt))
+    finer = np.ones(len(graph.boundary.arcs.circle), dtype=np.int64)
+    for strict in STRICT:
+        try:
+            return _boundary_mesh(graph, face, longest, finer, strict)
+        except Coarse as coarse:
+            bad = np.isin(graph.faces.edges.face, coarse.region)
+            finer[np.flatnonzero(bad) >> 1] *= FINER
+    raise InternalError(NO_MESH)
 
 
-def _boundary_mesh(graph: BoundaryGraph, face: Bools, longest: float, finer: int) -> Mesh:
-    """The same with curves that are divided into so many times more pieces."""
+def _boundary_mesh(graph: BoundaryGraph, face: Bools, longest: float, finer: Ints, strict: bool) -> Mesh:
+    """The same with arcs (k,) that are divided into so many times more pieces; Coarse names faces."""
     points = Points()
     spheres = graph.boundary.spheres
     divided = _divided_arcs(graph, points, longest, finer)
@@ -140,12 +151,12 @@ def _boundary_mesh(graph: BoundaryGraph, face: Bools, longest: float, finer: int
     kept = np.flatnonzero(face & bounded)
     regions = regions_of(graph.faces, kept, rows, start, spheres.center, spheres.radius)
     whole = graph.faces.sphere[face & ~bounded]
-    triangles = [region_triangles(points, regions, graph.faces.sphere[kept], longest)]
+    triangles = [face_triangles(points, regions, graph.faces, kept, longest, strict)]
     triangles += whole_spheres(points, whole, spheres.center[whole], spheres.radius[whole], longest)
-    return finished(points, triangles)
+    return finished(points, triangles, longest)
 
 
-def _divided_arcs(graph: BoundaryGraph, points: Points, longest: float, finer: int) -> Divided:
+def _divided_arcs(graph: BoundaryGraph, points: Points, longest: float, finer: Ints) -> Divided:
     """The arcs of the creases; points on them are said to be of the first ball."""
     arcs, circles, edges = graph.boundary.arcs, graph.boundary.circles, graph.faces.edges
     points.add(graph.vertex, graph.vertex_spheres[:, 0])
@@ -165,10 +176,15 @@ def first_rows(rows: Ints, pieces: Ints) -> Ints:
     return begin + np.cumsum(pieces - 1) - (pieces - 1)
 
 
-def region_triangles(points: Points, regions: Regions, ball: Ints, longest: float) -> Ints:
-    """Return triangles (t, 3) of regions of spheres, each the part of a ball."""
-    found = triangulated(regions, points.place(), longest)
-    points.add(found.inner, ball[found.inner_region])
+def face_triangles(
+    points: Points, regions: Regions, faces: SphericalFaces, kept: Ints, longest: float, strict: bool
+) -> Ints:
+    """Return triangles (t, 3) of the kept faces, which the regions are; raises Coarse naming faces."""
+    try:
+        found = triangulated(regions, points.place(), longest, strict)
+    except Coarse as coarse:
+        raise Coarse(kept[coarse.region]) from None
+    points.add(found.inner, faces.sphere[kept[found.inner_region]])
     return found.point
 
 
@@ -188,11 +204,42 @@ def whole_spheres(points: Points, ball: Ints, center: Floats, radius: Floats, lo
         Regions(loop, start, region, center, radius, np.tile(pole, (len(ball), 1)))
         for loop, pole in ((rows, -up), (back, up))
     ]
-    return [region_triangles(points, half, ball, longest) for half in halves]
+    triangles = []
+    for half in halves:
+        found = triangulated(half, points.place(), longest)
+        points.add(found.inner, ball[found.inner_region])
+        triangles.append(found.point)
+    return triangles
 
 
-def finished(points: Points, triangles: list[Ints]) -> Mesh:
-    """Return the mesh, without points that nothing uses."""
+def finished(points: Points, triangles: list[Ints], longest: float) -> Mesh:
+    """Return the mesh without points that nothing uses, and with points that are next to each other made one."""
     triangle = np.concatenate(triangles)
     used, number = np.unique(triangle, return_inverse=True)
-    return Mesh(points.place()[used], number.reshape(-1, 3), points.ball()[used])
+    mesh = Mesh(points.place()[used], number.reshape(-1, 3), points.ball()[used])
+    welded = _welded(mesh, WELD * longest)
+    return welded if _is_closed(welded.triangle) else mesh
+
+
+def _welded(mesh: Mesh, least: float) -> Mesh:
+    """Contract edges shorter than ``least``; triangles that become lines, and pairs that become one, are left out."""
+    one, other = mesh.triangle.ravel(), np.roll(mesh.triangle, -1, axis=1).ravel()
+    short = np.linalg.norm(mesh.vertex[one] - mesh.vertex[other], axis=1) < least
+    if not short.any():
+        return mesh
+    label = component_labels(one[short], other[short], len(mesh.vertex))
+    first = np.unique(label, return_index=True)[1]
+    triangle = label[mesh.triangle]
+    triangle = triangle[np.all(triangle != np.roll(triangle, 1, axis=1), axis=1)]
+    _, number, times = np.unique(np.sort(triangle, axis=1), axis=0, return_inverse=True, return_counts=True)
+    triangle = triangle[times[number.ravel()] == 1]
+    used, row = np.unique(triangle, return_inverse=True)
+    return Mesh(mesh.vertex[first[used]], row.reshape(-1, 3), mesh.ball[first[used]])
+
+
+def _is_closed(triangle: Ints) -> bool:
+    """Whether each edge has one triangle on either side."""
+    one, other = triangle.ravel(), np.roll(triangle, -1, axis=1).ravel()
+    count = int(triangle.max(initial=0)) + 1
+    here, back = np.sort(one * count + other), np.sort(other * count + one)
+    return bool(np.all(np.diff(here) > 0)) and np.array_equal(here, back)

@@ -16,7 +16,6 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.errors import InternalError
 from molviz.geometry.circles import perpendicular
-from molviz.geometry.general_position import Degenerate
 from molviz.vectors import cross, dot
 
 TURNS = 1000  # of flips or splits, never reached: each turn flips or splits what it can
@@ -43,6 +42,14 @@ class Triangles(NamedTuple):
     inner_region: Ints  # (k,)
 
 
+class Coarse(Exception):  # noqa: N818 - not an error: the caller divides the curves around these regions again
+    """The boundaries of some regions are so coarse that their polygons meet themselves."""
+
+    def __init__(self, region: Ints) -> None:
+        super().__init__()
+        self.region = region
+
+
 class _Net(NamedTuple):
     """Triangles (t, 3) of v points, each of one region: boundary points have one row in each region."""
 
@@ -63,15 +70,16 @@ class _Edges(NamedTuple):
     d: Ints
 
 
-def triangulated(regions: Regions, place: Floats, longest: float) -> Triangles:
+def triangulated(regions: Regions, place: Floats, longest: float, strict: bool = True) -> Triangles:
     """Return triangles with no edge inside a region longer than ``longest``; ``place`` (q, 3) are the points.
 
-    Raises Degenerate where a boundary is so coarse that its polygon meets itself.
+    Raises Coarse where boundaries are so coarse that their polygons meet themselves; unless ``strict``, only where that
+    leaves no triangles that fit together.
     """
     limit = np.minimum(longest, 0.6 * regions.radius)
     owner = np.repeat(regions.region, np.diff(regions.start))
     flat = _projected(regions, owner, place[regions.point])
-    net = _Net(_ears(regions, flat), flat, owner, regions.point)
+    net = _Net(_ears(regions, flat, strict), flat, owner, regions.point)
     net = _unique_edges(_refined(_delaunay(net), regions, limit), regions)
     new = np.flatnonzero(net.point < 0)
     number = net.point.copy()
@@ -101,15 +109,20 @@ def _lifted(regions: Regions, region: Ints, flat: Floats) -> Floats:
 # ---- the first triangles
 
 
-def _ears(regions: Regions, flat: Floats) -> Ints:
+def _ears(regions: Regions, flat: Floats, strict: bool) -> Ints:
     """Triangles (t, 3) between the boundary points of each region."""
     first_loop = np.searchsorted(regions.region, np.arange(len(regions.radius) + 1)).tolist()
     start = regions.start.tolist()
-    parts = [np.empty((0, 3), dtype=np.int64)]
-    for begin, end in zip(first_loop[:-1], first_loop[1:], strict=True):
+    parts, coarse = [np.empty((0, 3), dtype=np.int64)], []
+    for region, (begin, end) in enumerate(zip(first_loop[:-1], first_loop[1:], strict=True)):
         loops = [np.arange(start[loop], start[loop + 1]) for loop in range(begin, end)]
         loops.sort(key=lambda loop: -_signed_area(flat[loop]))  # the outer one is counter-clockwise, holes are not
-        parts.append(_cut(loops, flat))
+        triangle, area = _cut(loops, flat)
+        if (strict and area.min() < 0) or not _fits(loops, triangle):
+            coarse.append(region)
+        parts.append(triangle)
+    if coarse:
+        raise Coarse(np.array(coarse))
     return np.concatenate(parts)
 
 
@@ -117,16 +130,14 @@ def _signed_area(polygon: Floats) -> float:
     return float(np.sum(cross(polygon, np.roll(polygon, -1, axis=0)))) / 2
 
 
-def _cut(loops: list[Ints], flat: Floats) -> Ints:
+def _cut(loops: list[Ints], flat: Floats) -> tuple[Ints, Floats]:
+    """Triangles, the more of them counter-clockwise, and their areas: a polygon that meets itself has both kinds."""
     corner = np.concatenate(loops)
     ends = np.cumsum([len(loop) for loop in loops]).astype(np.uint32)
     triangle = corner[mapbox_earcut.triangulate_float64(flat[corner], ends).astype(np.int64).reshape(-1, 3)]
     sides = [flat[triangle[:, k]] - flat[triangle[:, 0]] for k in (1, 2)]
-    if np.sum(cross(*sides)) < 0:
-        triangle = triangle[:, ::-1]
-    if not _fits(loops, triangle):
-        raise Degenerate
-    return triangle
+    area = cross(*sides)
+    return (triangle, area) if np.sum(area) >= 0 else (triangle[:, ::-1], -area)
 
 
 def _fits(loops: list[Ints], triangle: Ints) -> bool:
@@ -188,8 +199,10 @@ def _refined(net: _Net, regions: Regions, limit: Floats) -> _Net:
     """Halve the longest edges and flip, until no edge inside a region is longer than its limit."""
     for _ in range(TURNS):
         edges = _edges(net.triangle)
-        place = _lifted(regions, net.region, net.flat)
-        length = np.linalg.norm(place[edges.a] - place[edges.b], axis=1) / limit[net.region[edges.a]]
+        region, begin = net.region[edges.a], net.flat[edges.a]
+        middle = _lifted(regions, region, _middles(net.flat, edges.a, edges.b))
+        half = np.linalg.norm(middle - _lifted(regions, region, begin), axis=1)  # ends may be near over the far side
+        length = 2 * half / limit[region]
         long = np.flatnonzero(length > 1)
         rank = np.empty(len(long), dtype=np.int64)
         rank[np.argsort(-length[long], kind="stable")] = np.arange(len(long))
@@ -200,14 +213,19 @@ def _refined(net: _Net, regions: Regions, limit: Floats) -> _Net:
     raise InternalError("halving of edges does not end")
 
 
+def _middles(flat: Floats, a: Ints, b: Ints) -> Floats:
+    """The points (e, 2) of straight edges that are as far from either end on the sphere."""
+    shrink = [np.sqrt(1 + np.sum(flat[end] ** 2, axis=1)) for end in (a, b)]
+    share = (shrink[0] / (shrink[0] + shrink[1]))[:, None]
+    return np.asarray(flat[a] + share * (flat[b] - flat[a]))
+
+
 def _split(net: _Net, edges: _Edges, row: Ints) -> _Net:
-    """Put a point on each of the given edges, as far from either end on the sphere: four triangles for two."""
+    """Put a point on each of the given edges: four triangles for two."""
     one, other = edges.one[row], edges.other[row]
     a, b, c, d = edges.a[row], edges.b[row], edges.c[row], edges.d[row]
     new = len(net.point) + np.arange(len(row))
-    shrink = [np.sqrt(1 + np.sum(net.flat[end] ** 2, axis=1)) for end in (a, b)]
-    share = (shrink[0] / (shrink[0] + shrink[1]))[:, None]
-    middle = net.flat[a] + share * (net.flat[b] - net.flat[a])
+    middle = _middles(net.flat, a, b)
     net.triangle[one] = np.stack([a, new, c], axis=1)
     net.triangle[other] = np.stack([b, new, d], axis=1)
     more = [np.stack([new, b, c], axis=1), np.stack([new, a, d], axis=1)]
