@@ -34,6 +34,8 @@ HOMES = {
     "resvg_py": {"viewer"},
     "rich": {"viewer"},
     "textual_image": {"viewer"},
+    "trimesh": {"write"},
+    "mapbox_earcut": {"geometry"},
 }
 FILES = sorted(path for path in PACKAGE.rglob("*.py") if path.parent != PACKAGE or path.stem in STAGES)
 

@@ -7,11 +7,23 @@ from typing import Any
 import click
 
 from molviz.cli.batch import for_each, where_from
-from molviz.cli.options import NOT_NEGATIVE, batch_options, input_options_with, load_and_warn, shared
-from molviz.cli.telling import tell_csv, tell_json, visible
+from molviz.cli.draw import refuse_shared_targets
+from molviz.cli.options import NOT_NEGATIVE, POSITIVE, batch_options, input_options_with, load_and_warn, shared
+from molviz.cli.telling import say, tell_csv, tell_json, visible
 from molviz.model.radii import TABLES
 from molviz.pipeline.inputs import WATER_RADIUS, InputOptions
-from molviz.pipeline.surface import PER, Component, Surface, atom_rows, surface_as_data, surface_of
+from molviz.pipeline.outputs import target_of
+from molviz.pipeline.surface import (
+    EDGE,
+    MESHES,
+    PER,
+    Component,
+    Surface,
+    atom_rows,
+    suffix_of_mesh,
+    surface_as_data,
+    surface_of,
+)
 from molviz.pipeline.values import input_options_from
 
 Row = dict[str, Any]
@@ -24,6 +36,9 @@ probe_option = click.option(
 @click.command("surface")
 @click.argument("inputs", nargs=-1, required=True, metavar="INPUT...")
 @click.option("--per", type=click.Choice(PER), default=PER[0], show_default=True, help="Rows of --csv; atoms besides.")
+@click.option("-o", "--output", metavar="FILE", help="A mesh: .ply .obj .stl .glb; many: a folder's or {stem}.ply.")
+@click.option("--mesh", type=click.Choice(MESHES), default=MESHES[0], show_default=True, help="Which surface -o holds.")
+@click.option("--edge", type=POSITIVE, default=EDGE, show_default=True, metavar="LENGTH", help="Of its edges, in Å.")
 @click.option("--outer-only", is_flag=True, default=False, help="Roll over what the probe reaches from outside.")
 @shared("check", help="Verify that the surface is closed, and its area the slope of its volume.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on standard output.")
@@ -43,12 +58,18 @@ def surface_command(inputs: tuple[str, ...], per: str, as_json: bool, as_csv: bo
       molviz surface 4hhb.pdb --no-water
       molviz surface 4hhb.pdb --probe 1.2 --per atom --csv
       molviz surface 4hhb.pdb --probe 0 --json
+      molviz surface 4hhb.pdb --no-water -o 4hhb.glb --edge 0.4
     """
+    output = options["output"]
+    if output:
+        suffix_of_mesh(output)
+        refuse_shared_targets(inputs, output, suffix_of_mesh(output), options)
     if as_json and as_csv:
         raise click.UsageError("--json and --csv exclude each other")
     wanted = input_options_from(options)
     surfaces: list[Surface] = []
-    task = SurfaceTask(wanted, options["outer_only"], options["check"], options["quiet"], options["strict"])
+    about = (options["outer_only"], options["check"], options["quiet"], options["strict"])
+    task = SurfaceTask(wanted, *about, output or "", options["mesh"], options["edge"])
     try:
         for_each(inputs, task, surfaces.extend, where_from(options), options["quiet"])
     finally:
@@ -64,11 +85,25 @@ class SurfaceTask:
     check: bool
     quiet: bool
     strict: bool
+    output: str  # of meshes, "" for none
+    mesh: str
+    edge: float
 
     def __call__(self, source: str) -> list[Surface]:
-        """Return the surface of each model of one input; the probe enlarges no ball before."""
+        """Return the surface of each model of one input, and write its mesh; the probe enlarges no ball before."""
         models = load_and_warn(source, replace(self.wanted, probe=0.0), self.quiet, self.strict)
-        return [surface_of(loaded, self.wanted.probe, self.outer_only, self.check) for loaded in models]
+        found = [surface_of(loaded, self.wanted.probe, self.outer_only, self.check) for loaded in models]
+        if self.output:
+            self.write(found, target_of(source, self.output, suffix_of_mesh(self.output)))
+        return found
+
+    def write(self, surfaces: list[Surface], target: str) -> None:
+        """Write the mesh of the one surface of an input, and say so."""
+        if len(surfaces) > 1:
+            raise click.UsageError(f"a mesh holds one model, not {len(surfaces)}; expected --model NUMBER")
+        surfaces[0].save(target, self.mesh, self.edge)
+        if not self.quiet:
+            say(f"{surfaces[0].source} -> {target}: {self.mesh} surface")
 
 
 def _tell(surfaces: list[Surface], radii: str, per: str, as_json: bool, as_csv: bool) -> None:

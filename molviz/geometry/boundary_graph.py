@@ -73,8 +73,8 @@ def _vertices(boundary: Boundary) -> tuple[Ints, Ints, Ints]:
     circles, arcs = boundary.circles, boundary.arcs
     bounded = np.flatnonzero(arcs.before >= 0)
     first, second = (column[arcs.circle[bounded]] for column in (circles.first, circles.second))
-    starts, ends = (_names(first, second, arcs.before[bounded], 0), _names(first, second, arcs.after[bounded], 1))
-    name, number = _numbered(np.concatenate([starts, ends]), len(boundary.spheres.radius))
+    names = [triple_names(first, second, end[bounded], side) for side, end in enumerate((arcs.before, arcs.after))]
+    name, number = numbered_names(np.concatenate(names), len(boundary.spheres.radius))
     whole = np.flatnonzero(arcs.before < 0)
     origin, target = np.empty(len(arcs.circle), dtype=np.int64), np.empty(len(arcs.circle), dtype=np.int64)
     origin[bounded], target[bounded] = np.split(number, 2)
@@ -82,8 +82,8 @@ def _vertices(boundary: Boundary) -> tuple[Ints, Ints, Ints]:
     return name, origin, target
 
 
-def _names(i: Ints, j: Ints, k: Ints, side: int) -> Ints:
-    """Names (m, 4) of triple points where the crease of i < j enters ball k (side 1) or leaves it (side 0).
+def triple_names(i: Ints, j: Ints, k: Ints, side: int) -> Ints:
+    """Return names (m, 4) of triple points where the crease of i < j enters ball k (side 1) or leaves it (side 0).
 
     The side is the sign of ``det(c_i − p, c_j − p, c_k − p)``; sorting (i, j, k) is odd exactly if k belongs between
     them, and mirrors it.
@@ -92,8 +92,9 @@ def _names(i: Ints, j: Ints, k: Ints, side: int) -> Ints:
     return np.stack([low, i + j + k - low - high, high, side ^ ((i < k) & (k < j))], axis=1)
 
 
-def _numbered(name: Ints, count: int) -> tuple[Ints, Ints]:
-    """Each name once, and the numbers of all; in two steps, as three numbers of spheres may not fit into one."""
+def numbered_names(name: Ints, count: int) -> tuple[Ints, Ints]:
+    """Return each name once, and the numbers of all; ``count`` is above all numbers of spheres."""
+    # in two steps, as three numbers of spheres may not fit into one
     pair = np.unique(name[:, 0] * count + name[:, 1], return_inverse=True)[1]
     _, row, number = np.unique((pair * count + name[:, 2]) * 2 + name[:, 3], return_index=True, return_inverse=True)
     return name[row], number

@@ -74,6 +74,11 @@ def lining(graph: BoundaryGraph, shells: Shells) -> tuple[Ints, Ints]:
     return pair // balls, pair % balls
 
 
+def reached_from_outside(shells: Shells) -> Bools:
+    """Return (f,) whether a face is one of the outer cell: of an outer shell whose component lies in no cavity."""
+    return np.asarray((shells.outer & (shells.parent < 0))[shells.of_face])
+
+
 def _first_face(of_face: Ints, count: int) -> Ints:
     first = np.empty(count, dtype=np.int64)
     first[of_face[::-1]] = np.arange(len(of_face))[::-1]

@@ -77,7 +77,8 @@ class Probes(NamedTuple):
     vertex: Ints  # (v,) of the graph
     center: Floats  # (v, 3) y
     cluster: Ints  # (v,) number shared by those that arcs next to no length connect
-    corner: Floats  # (v, 3, 3) unit vectors from y to the centres of the balls, counter-clockwise
+    balls: Ints  # (v, 3) counter-clockwise
+    corner: Floats  # (v, 3, 3) unit vectors from y to their centres
     away: Floats  # (v, 3, 3) t, the directions in which the arcs leave
 
 
@@ -162,14 +163,14 @@ def saddles_of(graph: BoundaryGraph, probe: float, arc: Ints) -> Saddles:
 
 def probes_of(graph: BoundaryGraph, probe: float, vertex: Ints) -> Probes:
     """Return the probes of the given radius at the given triple points."""
-    center, balls = graph.vertex[vertex], graph.boundary.spheres.center[graph.vertex_spheres[vertex]]
-    corner = balls - center[:, None]
+    center, balls = graph.vertex[vertex], graph.vertex_spheres[vertex]
+    corner = graph.boundary.spheres.center[balls] - center[:, None]
     corner /= np.linalg.norm(corner, axis=2)[:, :, None]
     clockwise = np.flatnonzero(dot(np.cross(corner[:, 0], corner[:, 1]), corner[:, 2]) < 0)
-    corner[clockwise] = corner[clockwise][:, [0, 2, 1]]
+    corner[clockwise], balls[clockwise] = corner[clockwise][:, [0, 2, 1]], balls[clockwise][:, [0, 2, 1]]
     across = np.cross(corner, corner[:, [1, 2, 0]])  # an arc leaves perpendicularly to the plane of y and its two balls
     away = -across / np.linalg.norm(across, axis=2)[:, :, None]
-    return Probes(vertex, center, _clusters(graph, probe)[vertex], corner, away)
+    return Probes(vertex, center, _clusters(graph, probe)[vertex], balls, corner, away)
 
 
 def _clusters(graph: BoundaryGraph, probe: float) -> Ints:

@@ -1,24 +1,39 @@
 """``molviz surface``: spheres → boundary as a graph → shells → the smooth surface of a probe."""
 
+from __future__ import annotations
+
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from importlib import import_module
+from pathlib import PurePath
+from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.errors import InternalError
+from molviz.errors import InputError, InternalError, OptionError
 from molviz.geometry.boundary_graph import BoundaryGraph, boundary_graph
 from molviz.geometry.rims import sums
-from molviz.geometry.shells import Shells, lining, shells_of
+from molviz.geometry.shells import Shells, lining, reached_from_outside, shells_of
 from molviz.geometry.smooth import Kept, SmoothSurface, part_of_boundary, smooth_surface, whole_boundary
 from molviz.model.molecule import Molecule
 from molviz.model.spheres import Spheres
 from molviz.pipeline.inputs import Loaded, refuse_unresolved
 from molviz.pipeline.measure import ids
+from molviz.pipeline.outputs import refuse_inputs, save
+from molviz.pipeline.values import parse_positive
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from molviz.geometry.mesh import Mesh
 
 PER = ("shell", "atom")
+MESHES = ("smooth", "accessible", "vdw")
+SUFFIXES = (".ply", ".obj", ".stl", ".glb")
+EDGE = 0.5  # ångström: a third of an atom's radius
 LEAK = 1e-10  # of the area, that ∮ n dA may be off: closed to rounding
 STEP, SLOPE = 1e-4, 1e-5  # of the probe's radius; of the area, that dV/dε may be off where steps meet a new cut
 
@@ -50,6 +65,7 @@ class Surface:
     molecule: Molecule
     spheres: Spheres  # without the probe
     probe: float  # ångström
+    outer_only: bool
     kept: Kept  # the part of the boundary that the probe's centre reaches
     graph: BoundaryGraph
     shells: Shells
@@ -81,6 +97,30 @@ class Surface:
         )  # fmt: skip
         return tuple(Component(*row) for row in rows)
 
+    def mesh(self, kind: str = "smooth", edge: float = EDGE) -> Mesh:
+        """Return a closed mesh of the "smooth", "accessible" or "vdw" (van der Waals) surface, vertices exactly on it.
+
+        Edges are about ``edge`` Å long at most, shorter where balls are small. Where voids were left out of the smooth
+        surface, they are left out of the others, too. Raises InputError for another kind or edge.
+        """
+        if kind not in MESHES or (kind == "smooth" and self.smooth is None):
+            raise InputError(f"mesh: {kind!r}; expected one of {', '.join(MESHES)}, and a probe for smooth")
+        try:
+            longest = parse_positive(edge)
+        except ValueError as wrong:
+            raise InputError(f"edge: {wrong}") from None
+        mesh: Mesh = _meshes().mesh_of(self, kind, longest)
+        return mesh
+
+    def save(self, path: str | os.PathLike[str], mesh: str = "smooth", edge: float = EDGE) -> None:
+        """Write a mesh in the format that the suffix of the path names: .ply .obj .stl .glb, coloured by atom.
+
+        Raises InputError as ``mesh`` does, for an unknown suffix, and where the file cannot be written.
+        """
+        suffix = suffix_of_mesh(os.fspath(path))
+        refuse_inputs(os.fspath(path), [self.source])
+        save(os.fspath(path), _meshes().encoded_mesh(self, self.mesh(mesh, edge), suffix))
+
     def accessible(self) -> Floats:
         """Return the area (n,) in Å² of each enlarged ball on the boundary."""
         return sums(self.graph.faces.sphere, self.graph.face_area(), len(self.molecule))
@@ -97,6 +137,22 @@ class Surface:
         return self.graph.vertex_spheres[vertex]
 
 
+def suffix_of_mesh(path: str) -> str:
+    """Return the suffix of a path; raises OptionError where no mesh has such a format."""
+    suffix = PurePath(path).suffix.lower()
+    if suffix not in SUFFIXES:
+        raise OptionError(f"no format {PurePath(path).suffix!r} of meshes; expected one of {' '.join(SUFFIXES)}", path)
+    return suffix
+
+
+def _meshes() -> ModuleType:
+    """The stage that needs packages which nothing else does."""
+    try:
+        return import_module("molviz.pipeline.meshes")
+    except ModuleNotFoundError as missing:
+        raise InputError(f"meshes need the package {missing.name}; expected pip install 'molviz[mesh]'") from None
+
+
 def surface_of(loaded: Loaded, probe: float, outer_only: bool = False, check: bool = False) -> Surface:
     """Return the surface of a model that was loaded without a probe, for a probe of the given radius in ångström.
 
@@ -107,13 +163,12 @@ def surface_of(loaded: Loaded, probe: float, outer_only: bool = False, check: bo
     refuse_unresolved(loaded)
     graph = boundary_graph(loaded.spheres.enlarged(1.0, probe))
     shells = shells_of(graph)
-    reached = (shells.outer & (shells.parent < 0))[shells.of_face]
-    kept = part_of_boundary(graph, reached) if outer_only else whole_boundary(graph)
+    kept = part_of_boundary(graph, reached_from_outside(shells)) if outer_only else whole_boundary(graph)
     smooth = smooth_surface(graph, probe, kept) if probe > 0 else None
     if check:
         check_surface(graph, shells, probe, kept, smooth)
     about = (loaded.source, loaded.model, loaded.molecule, loaded.spheres)
-    return Surface(*about, probe, kept, graph, shells, smooth)
+    return Surface(*about, probe, outer_only, kept, graph, shells, smooth)
 
 
 def check_surface(graph: BoundaryGraph, shells: Shells, probe: float, kept: Kept, smooth: SmoothSurface | None) -> None:
