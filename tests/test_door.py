@@ -68,6 +68,8 @@ NOT_IN_PYTHON = {
     "strict": "Python's warning filters do it",
     "plotter": "of one format: to('hpgl', plotter=…), save(path, plotter=…)",
     "paper": "of one format, as the plotter",
+    "mesh": "of files: Surface.mesh(kind, edge), save(path, mesh=…)",
+    "edge": "of meshes, as their kind",
     "jobs": "one thing is drawn by a call",
     "dask": "one thing is drawn by a call",
     "per": "measure gives the areas of all atoms as an array",
