@@ -23,7 +23,11 @@ def distance_to_free_space(spheres: Spheres, points: np.ndarray) -> np.ndarray:
 
 
 def candidates(spheres: Spheres, points: np.ndarray) -> list[np.ndarray]:
-    """The nearest points of each sphere, of each circle of two spheres, and the common points of three."""
+    """The nearest points of each sphere, of each circle of two spheres, and the common points of three.
+
+    All points of a circle are as near to a point of its axis, where the nearest one would be a matter of rounding: one
+    point of every circle is a candidate as well.
+    """
     center, radius, count = spheres.center, spheres.radius, len(spheres.radius)
     found = [center[i] + radius[i] * unit(points - center[i]) for i in range(count)]
     for i, j in combinations(range(count), 2):
@@ -33,7 +37,11 @@ def candidates(spheres: Spheres, points: np.ndarray) -> list[np.ndarray]:
         if abs(radius[i] - radius[j]) < d < radius[i] + radius[j]:
             middle, axis = center[i] + t / d * between, between / d
             across = points - middle - np.outer((points - middle) @ axis, axis)
-            found.append(middle + np.sqrt(radius[i] ** 2 - t**2) * unit(across))
+            rho = np.sqrt(radius[i] ** 2 - t**2)
+            some = unit(np.cross(axis, np.eye(3)[[np.argmin(np.abs(axis))]]))
+            aside = np.linalg.norm(across, axis=1)[:, None] > 0
+            found.append(middle + rho * np.where(aside, unit(np.where(aside, across, some)), some))
+            found.append(np.broadcast_to(middle + rho * some, points.shape))
     for triple in combinations(range(count), 3):
         found += [np.broadcast_to(point, points.shape) for point in common_points(spheres, list(triple))]
     return found

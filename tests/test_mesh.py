@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 from click.testing import CliRunner, Result
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import molviz
@@ -41,12 +41,9 @@ def rolled(spheres: Spheres, probe: float, longest: float) -> Mesh:
 
 
 @given(st.integers(0, 10**9))
+@example(3279)  # a spindle without vertices: its cusps are as near to all of a circle
 @settings(max_examples=20)
 def test_meshes_are_closed_and_manifold_and_on_the_surface(seed: int) -> None:
-    assert_closed_and_on_the_surface(seed)
-
-
-def assert_closed_and_on_the_surface(seed: int) -> None:
     spheres, probe = scene(seed)
     graph = prepared(spheres, probe)
     balls, smooth = whole(graph, 0.4), rolled(spheres, probe, 0.4)
@@ -54,9 +51,7 @@ def assert_closed_and_on_the_surface(seed: int) -> None:
     own = graph.boundary.spheres
     gap = np.linalg.norm(balls.vertex[:, None] - own.center, axis=2) - own.radius
     assert np.abs(gap.min(axis=1)).max() < 1e-9
-    # at the cusps of spindles, two points each, this oracle divides nought by nought
-    off = np.abs(distance_to_free_space(own, smooth.vertex) - probe) > 1e-9
-    assert off.sum() <= 2 * len(smooth_surface(graph, probe, whole_boundary(graph)).spindles)
+    assert np.abs(distance_to_free_space(own, smooth.vertex) - probe).max() < 1e-9
 
 
 def test_twice_as_fine_is_four_times_as_near() -> None:
@@ -131,6 +126,16 @@ def test_the_same_command_writes_the_same_bytes(tmp_path: Path) -> None:
 def test_the_outer_surface_has_no_cavity() -> None:
     both, outer = (molviz.surface(C60, outer_only=only).mesh("vdw", 0.8) for only in (False, True))
     assert outer.volume() > both.volume() and outer.area() < both.area()
+
+
+def test_many_inputs_are_written_to_a_folder_that_is_made(tmp_path: Path) -> None:
+    pattern = str(tmp_path / "new" / "{stem}.ply")
+    assert run(CAFFEINE, C60, "-o", pattern, "--edge", "1").exit_code == 0
+    assert sorted(path.name for path in (tmp_path / "new").iterdir()) == ["c60.ply", "caffeine.ply"]
+    frames = tmp_path / "frames.xyz"
+    frames.write_text("1\n\nC 0 0 0\n1\n\nC 0 0 0\n", encoding="ascii")
+    told = run(str(frames), "--model", "all", "-o", str(tmp_path / "x.ply"))
+    assert told.exit_code == 2 and "expected --model NUMBER" in told.stderr and not (tmp_path / "x.ply").exists()
 
 
 def test_what_cannot_be_is_refused(tmp_path: Path) -> None:
