@@ -10,9 +10,10 @@ from molviz.cli.batch import for_each, where_from
 from molviz.cli.draw import refuse_shared_targets
 from molviz.cli.options import NOT_NEGATIVE, POSITIVE, batch_options, input_options_with, load_and_warn, shared
 from molviz.cli.telling import say, tell_csv, tell_json, visible
+from molviz.errors import OptionError
 from molviz.model.radii import TABLES
 from molviz.pipeline.inputs import WATER_RADIUS, InputOptions
-from molviz.pipeline.outputs import target_of
+from molviz.pipeline.outputs import makes_folder, save, target_of
 from molviz.pipeline.surface import (
     EDGE,
     MESHES,
@@ -36,7 +37,7 @@ probe_option = click.option(
 @click.command("surface")
 @click.argument("inputs", nargs=-1, required=True, metavar="INPUT...")
 @click.option("--per", type=click.Choice(PER), default=PER[0], show_default=True, help="Rows of --csv; atoms besides.")
-@click.option("-o", "--output", metavar="FILE", help="A mesh: .ply .obj .stl .glb; many: a folder's or {stem}.ply.")
+@click.option("-o", "--output", metavar="FILE", help="A mesh: .ply .obj .stl .glb; many: '{stem}.ply'.")
 @click.option("--mesh", type=click.Choice(MESHES), default=MESHES[0], show_default=True, help="Which surface -o holds.")
 @click.option("--edge", type=POSITIVE, default=EDGE, show_default=True, metavar="LENGTH", help="Of its edges, in Å.")
 @click.option("--outer-only", is_flag=True, default=False, help="Roll over what the probe reaches from outside.")
@@ -98,12 +99,14 @@ class SurfaceTask:
         return found
 
     def write(self, surfaces: list[Surface], target: str) -> None:
-        """Write the mesh of the one surface of an input, and say so."""
+        """Write the mesh of the one surface of an input, and say so; raises OptionError for several."""
         if len(surfaces) > 1:
-            raise click.UsageError(f"a mesh holds one model, not {len(surfaces)}; expected --model NUMBER")
-        surfaces[0].save(target, self.mesh, self.edge)
+            told = f"has {len(surfaces)} models, and a mesh holds one; expected --model NUMBER"
+            raise OptionError(told, surfaces[0].source)
+        data = surfaces[0].to(suffix_of_mesh(target), self.mesh, self.edge)
+        save(target, data, makes_folder(self.output))
         if not self.quiet:
-            say(f"{surfaces[0].source} -> {target}: {self.mesh} surface")
+            say(f"{surfaces[0].source} -> {target}: {self.mesh} surface, {len(data)} bytes")
 
 
 def _tell(surfaces: list[Surface], radii: str, per: str, as_json: bool, as_csv: bool) -> None:

@@ -112,14 +112,23 @@ class Surface:
         mesh: Mesh = _meshes().mesh_of(self, kind, longest)
         return mesh
 
-    def save(self, path: str | os.PathLike[str], mesh: str = "smooth", edge: float = EDGE) -> None:
-        """Write a mesh in the format that the suffix of the path names: .ply .obj .stl .glb, coloured by atom.
+    def to(self, format: str, mesh: str = "smooth", edge: float = EDGE) -> bytes:
+        """Return a mesh as the content of a file, coloured by atom: "ply", "obj", "stl" (without colours) or "glb".
 
-        Raises InputError as ``mesh`` does, for an unknown suffix, and where the file cannot be written.
+        Raises InputError as ``mesh`` does, and for a format that nobody knows.
+        """
+        suffix = suffix_of_mesh(f"mesh.{str(format).removeprefix('.')}")
+        data: bytes = _meshes().encoded_mesh(self, self.mesh(mesh, edge), suffix)
+        return data
+
+    def save(self, path: str | os.PathLike[str], mesh: str = "smooth", edge: float = EDGE) -> None:
+        """Write a mesh in the format that the suffix of the path names; the file appears whole or not at all.
+
+        Raises InputError as ``to`` does, and where the file cannot be written.
         """
         suffix = suffix_of_mesh(os.fspath(path))
         refuse_inputs(os.fspath(path), [self.source])
-        save(os.fspath(path), _meshes().encoded_mesh(self, self.mesh(mesh, edge), suffix))
+        save(os.fspath(path), self.to(suffix, mesh, edge))
 
     def accessible(self) -> Floats:
         """Return the area (n,) in Å² of each enlarged ball on the boundary."""
