@@ -22,8 +22,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from draw_bench import RASMOL, SAMPLES
 
+SAMPLES = Path(__file__).parent.parent / "samples"
+RASMOL = Path("/usr/lib/rasmol/rasmol.32")  # of Debian's package: the program without a window, if asked so
 PEERS = ("numpy", "click", "svgwrite", "gemmi", "voronotalt")
 SIZES = [1000, 10_000, 100_000, 1_000_000]  # atoms, of which exponents are told
 VORONOTA = """
@@ -116,6 +117,7 @@ def file(bench: Bench, source: Path) -> None:
     name = source.name.split(".")[0]
     for style in ("goodsell", "flat"):
         bench.drawn(f"{name}, {style}, SVG", source, "svg", "--style", style)
+    bench.drawn(f"{name}, flat, painter, SVG", source, "svg", "--style", "flat", "--method", "painter")
     peer = rasmol(bench, source) if RASMOL.exists() and ".pdb" in source.suffixes else None
     bench.drawn(f"{name}, flat, PS (by RasMol's)", source, "ps", "--style", "flat", peer=peer)
     balls = bench.folder / "balls.xyzr"

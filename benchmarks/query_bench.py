@@ -14,6 +14,7 @@ import time
 from collections.abc import Callable
 
 import numpy as np
+from globule import globule
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
@@ -21,14 +22,6 @@ import molviz
 from molviz.model.spheres import Spheres
 
 LIGAND = 600  # atoms
-
-
-def globule(count: int) -> Spheres:
-    """Return centres on a shaken cubic lattice of 2.4 Å, radii as of atoms."""
-    random = np.random.default_rng(1)
-    edge = round(count ** (1 / 3))
-    lattice = np.stack(np.meshgrid(*[np.arange(edge)] * 3), axis=-1).reshape(-1, 3) * 2.4
-    return Spheres(lattice + random.uniform(-0.4, 0.4, lattice.shape), random.uniform(1.5, 1.8, len(lattice)))
 
 
 def by_tree(spheres: Spheres, center: np.ndarray, radius: np.ndarray) -> int:

