@@ -60,11 +60,7 @@ def cube_key(x: Ints, y: Ints, z: Ints, number: tuple[Ints, ...]) -> Ints:
 
 def intersecting_pairs(spheres: Spheres) -> tuple[Ints, Ints]:
     """Return all pairs i < j with |cj − ci| < ri + rj, each once, ordered by i then j."""
-    if len(spheres.radius) < 2:
-        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
-    index = grid_index(spheres)
-    meetings = in_threads(lambda block: _meeting(index, *block), _candidate_blocks(index))
-    one, other = (index.row[np.concatenate(column)] for column in zip(*meetings, strict=True))
+    one, other = _meetings(spheres)
     first, second = np.minimum(one, other), np.maximum(one, other)
     order = np.argsort(first * len(spheres.radius) + second)
     return first[order], second[order]
@@ -72,11 +68,23 @@ def intersecting_pairs(spheres: Spheres) -> tuple[Ints, Ints]:
 
 def neighbours(spheres: Spheres) -> Neighbours:
     """Return for every sphere the spheres it intersects, in time linear in n for a hard sphere model."""
-    first, second = intersecting_pairs(spheres)
     count = len(spheres.radius)
-    owner, item = np.concatenate([first, second]), np.concatenate([second, first])
-    order = np.argsort(owner * count + item)
-    return Neighbours(offsets(owner, count), item[order])
+    one, other = _meetings(spheres)
+    key = np.concatenate([one * count + other, other * count + one])
+    key.sort()  # owner and item as one number: sorting numbers is many times faster than finding their order
+    many = np.bincount(one, minlength=count) + np.bincount(other, minlength=count)
+    key -= np.repeat(np.arange(count) * count, many)
+    return Neighbours(np.concatenate([[0], np.cumsum(many)]), key)
+
+
+def _meetings(spheres: Spheres) -> tuple[Ints, Ints]:
+    """All pairs of n spheres that meet, each once, in the order in which the grid finds them."""
+    if len(spheres.radius) < 2:
+        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
+    index = grid_index(spheres)
+    pairs = in_threads(lambda block: _meeting(index, *block), _candidate_blocks(index))
+    one, other = (index.row[np.concatenate(column)] for column in zip(*pairs, strict=True))
+    return one, other
 
 
 def _candidate_blocks(index: GridIndex) -> Iterator[tuple[int, Ints, Ints]]:
