@@ -20,14 +20,14 @@ from molviz.geometry.caps import BINS, Caps, OpenCreases, open_creases
 from molviz.geometry.circles import CircleArcs, Circles, creases, radical_planes
 from molviz.geometry.grid import Neighbours, neighbours
 from molviz.geometry.intervals import TURN, Intervals, above, gaps
-from molviz.geometry.rows import blocks, expand, offsets
+from molviz.geometry.rows import blocks
 from molviz.geometry.tolerances import COINCIDE, TOUCH
 from molviz.model.spheres import Spheres
 from molviz.threads import in_threads
 from molviz.vectors import length
 
-BLOCK_ENTRIES = 1 << 17  # entries (sphere, cap, cap) at a time: their temporaries stay in cache
-PART_ENTRIES = 16 * BLOCK_ENTRIES  # of the creases of one thread at a time: fewer are too many steps
+BLOCK_ENTRIES = 1 << 20  # entries (sphere, cap, cap) at a time: their temporaries stay in cache
+PART_ENTRIES = 1 << 22  # of the creases of one thread at a time: fewer are too many steps
 BLOCK_PAIRS = 1 << 15  # entries (sphere, neighbour) at a time, likewise
 
 
@@ -96,8 +96,8 @@ def _meeting(spheres: Spheres, near: Neighbours, block: slice) -> tuple[Ints, Bo
 
 def _distances(spheres: Spheres, one: Ints, other: Ints) -> tuple[Floats, Floats, Floats]:
     """Distances of pairs of centres, and the radii of both."""
-    distance = length(spheres.center[other] - spheres.center[one])
-    return np.asarray(distance), spheres.radius[one], spheres.radius[other]
+    distance = length(spheres.center.take(other, axis=0) - spheres.center.take(one, axis=0))
+    return distance, spheres.radius.take(one), spheres.radius.take(other)
 
 
 def _parts(crossing: Neighbours) -> Iterator[Ints]:
@@ -131,17 +131,15 @@ def _of_block(caps: Caps) -> list[OpenCreases]:
 
 def _caps(spheres: Spheres, crossing: Neighbours, sphere: Ints) -> Caps:
     """The caps of the given spheres; ``cos ω = t / ri``, the radical plane lying at t."""
-    row, entry = expand(crossing.start[sphere], crossing.start[sphere + 1])
-    place = entry - crossing.start[sphere][row]
-    direction, along = radical_planes(spheres, sphere[row], crossing.item[entry])
-    shape = len(sphere), int(place.max()) + 1
-    item, axis, cosine = np.full(shape, -1), np.zeros((*shape, 3)), np.full(shape, 2.0)
-    item[row, place] = crossing.item[entry]
-    axis[row, place] = direction
-    cosine[row, place] = along / spheres.radius[sphere[row]]
+    start, many = crossing.start[sphere][:, None], np.diff(crossing.start)[sphere][:, None]
+    place = np.arange(int(many.max()))
+    real = place < many
+    item = crossing.item.take(start + place * real)  # the first again for padding
+    direction, along = radical_planes(spheres, np.repeat(sphere, len(place)), item.ravel())
+    cosine = np.where(real, along.reshape(item.shape) / spheres.radius[sphere][:, None], 2.0)
     largest = np.argsort(cosine, axis=1)
-    rows = np.arange(len(sphere))[:, None]
-    return Caps(sphere, item[rows, largest], axis[rows, largest], cosine[rows, largest])
+    largest += np.arange(len(sphere))[:, None] * len(place)
+    return Caps(sphere, np.where(real, item, -1).take(largest), direction.take(largest, axis=0), cosine.take(largest))
 
 
 def _free_arcs(spheres: Spheres, candidates: OpenCreases) -> tuple[Circles, CircleArcs]:
@@ -193,12 +191,12 @@ def _half_space(
 ) -> tuple[Floats, Floats, Floats]:
     """On sphere i, ``|p − ck|² < rk²`` is linear: ``2 (p − ci) · (ck − ci) > |ck − ci|² + ri² − rk²``."""
     own = circles.first[circle]
-    toward = spheres.center[ball] - spheres.center[own]
+    toward = spheres.center.take(ball, axis=0) - spheres.center.take(own, axis=0)
     power = np.sum(toward**2, axis=1) + (spheres.radius[own] - spheres.radius[ball]) * (
         spheres.radius[own] + spheres.radius[ball]
     )
-    rest = power / 2 - np.sum(offset[circle] * toward, axis=1)
-    return np.sum(circles.a[circle] * toward, axis=1), np.sum(circles.b[circle] * toward, axis=1), rest
+    a, b, along = (np.sum(vector.take(circle, axis=0) * toward, axis=1) for vector in (circles.a, circles.b, offset))
+    return a, b, power / 2 - along
 
 
 def _crease_inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.geometry.rows import blocks, expand, offsets
+from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
 from molviz.threads import in_threads
 

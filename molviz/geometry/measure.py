@@ -16,11 +16,12 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.boundary import Boundary, free_spheres, union_boundary
+from molviz.geometry.boundary import BLOCK_PAIRS, Boundary, free_spheres, union_boundary
 from molviz.geometry.rims import Rims, opposite_poles, rims_of, totals, twice_j1, unit_flux
-from molviz.geometry.rows import expand
+from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
-from molviz.vectors import dot
+from molviz.threads import in_threads
+from molviz.vectors import dot, length
 
 
 class Measure(NamedTuple):
@@ -72,11 +73,22 @@ def _unit_area(boundary: Boundary, rims: Rims) -> Floats:
 
 def _free(boundary: Boundary, sphere: Ints, direction: Floats) -> Bools:
     """Whether the point of each given sphere in the given direction lies outside all other balls."""
-    spheres, crossing = boundary.spheres, boundary.crossing
-    point = spheres.center[sphere] + spheres.radius[sphere][:, None] * direction
-    row, entry = expand(crossing.start[sphere], crossing.start[sphere + 1])
-    ball = crossing.item[entry]
-    covered = np.sum((point[row] - spheres.center[ball]) ** 2, axis=1) < spheres.radius[ball] ** 2
+    begin, end = boundary.crossing.start[sphere], boundary.crossing.start[sphere + 1]
+
+    def free(block: slice) -> Bools:
+        return _outside(boundary, sphere[block], direction[block], begin[block], end[block])
+
+    return np.concatenate([np.empty(0, dtype=bool), *in_threads(free, blocks(end - begin, BLOCK_PAIRS))])
+
+
+def _outside(boundary: Boundary, sphere: Ints, direction: Floats, begin: Ints, end: Ints) -> Bools:
+    """The same of some spheres, whose neighbours have the rows ``begin`` to ``end``."""
+    spheres = boundary.spheres
+    point = spheres.center.take(sphere, axis=0) + spheres.radius[sphere][:, None] * direction
+    row, entry = expand(begin, end)
+    ball = boundary.crossing.item.take(entry)
+    distance = length(point.take(row, axis=0) - spheres.center.take(ball, axis=0))
+    covered = distance < spheres.radius.take(ball)
     return np.asarray(np.bincount(row[covered], minlength=len(sphere)) == 0)
 
 
