@@ -23,6 +23,7 @@ help: ## show this help
 $(VENV)/installed: pyproject.toml ## (environment with molviz installed)
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --editable .
+	$(BIN)/python -m compileall -q molviz
 	touch $@
 
 $(VENV)/developed: $(VENV)/installed

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints
+from molviz.arrays import Floats, Ints, distinct
 from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
 from molviz.threads import in_threads
@@ -39,7 +39,7 @@ def grid_index(spheres: Spheres) -> GridIndex:
     """Return the index of n ≥ 1 spheres, in O(n log n) time and O(n) space (Theorem 3.1)."""
     side = 2.0 * float(spheres.radius.max())
     cell = np.floor(spheres.center / side)
-    slabs = tuple(np.unique(cell[:, axis]) for axis in range(3))
+    slabs = tuple(distinct(cell[:, axis]) for axis in range(3))
     number = tuple(map(collapsed, slabs))
     x, y, z = (number[axis][np.searchsorted(slabs[axis], cell[:, axis])] for axis in range(3))
     key = cube_key(x, y, z, number)

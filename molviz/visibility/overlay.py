@@ -7,7 +7,7 @@ from a light and grown as little is seen on the side of its sphere that the ligh
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints
+from molviz.arrays import Bools, Floats, Ints, distinct
 from molviz.geometry.grid import neighbours
 from molviz.geometry.rows import expand
 from molviz.model.spheres import Spheres
@@ -21,7 +21,7 @@ MOVED = 1e-3  # of a radius: how far a copy that marks a side of its sphere is m
 
 def seen_spheres(view_map: VisibilityMap) -> Ints:
     """Return the spheres that have a face, ascending."""
-    faces = np.unique(view_map.loops.face)
+    faces = distinct(view_map.loops.face)
     return np.asarray(faces[faces != BACKGROUND])
 
 
