@@ -45,6 +45,7 @@ def test_coinciding_rows_are_those_met_before(rows: list[tuple[float, ...]]) -> 
     assert coinciding_rows(np.array(rows, dtype=float).reshape(-1, 3)).tolist() == expected
 
 
+@pytest.mark.filterwarnings("error")
 def test_a_number_beyond_doubles_is_refused_without_a_warning() -> None:
     rows = [f"{k} 0 0 1" for k in range(20)]
     rows[5] = "5 0 5.78626660773e324 1"
