@@ -1,9 +1,11 @@
 """Gaps of intervals on circles, against sampling."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from molviz.geometry import intervals
 from molviz.geometry.intervals import TURN, Intervals, above, gaps
 
 interval = st.tuples(st.integers(0, 3), st.floats(-20, 20), st.floats(1e-3, TURN))
@@ -50,3 +52,12 @@ def test_above_solves_the_inequality() -> None:
 @given(st.floats(-20, 20))
 def test_a_whole_turn_leaves_no_seam(start: float) -> None:
     assert len(gaps(Intervals(np.array([0]), np.array([start]), np.array([TURN])), 1).circle) == 0
+
+
+def test_circles_in_parts_have_the_same_gaps(monkeypatch: pytest.MonkeyPatch) -> None:
+    random = np.random.default_rng(4)
+    hidden = Intervals(random.integers(0, 23, 400), random.uniform(-9, 9, 400), random.uniform(0.01, 0.6, 400))
+    expected = gaps(hidden, 29)
+    monkeypatch.setattr(intervals, "BLOCK_ROWS", 60)
+    for one, other in zip(expected, gaps(hidden, 29), strict=True):
+        assert np.array_equal(one, other)

@@ -60,7 +60,7 @@ def cube_key(x: Ints, y: Ints, z: Ints, number: tuple[Ints, ...]) -> Ints:
 
 def intersecting_pairs(spheres: Spheres) -> tuple[Ints, Ints]:
     """Return all pairs i < j with |cj − ci| < ri + rj, each once, ordered by i then j."""
-    one, other = _meetings(spheres)
+    one, other = meeting_pairs(spheres)
     first, second = np.minimum(one, other), np.maximum(one, other)
     order = np.argsort(first * len(spheres.radius) + second)
     return first[order], second[order]
@@ -68,8 +68,11 @@ def intersecting_pairs(spheres: Spheres) -> tuple[Ints, Ints]:
 
 def neighbours(spheres: Spheres) -> Neighbours:
     """Return for every sphere the spheres it intersects, in time linear in n for a hard sphere model."""
-    count = len(spheres.radius)
-    one, other = _meetings(spheres)
+    return pairs_by_owner(*meeting_pairs(spheres), len(spheres.radius))
+
+
+def pairs_by_owner(one: Ints, other: Ints, count: int) -> Neighbours:
+    """Return the lists of ``count`` spheres that pairs (m,) of them, each once, make for both."""
     key = np.concatenate([one * count + other, other * count + one])
     key.sort()  # owner and item as one number: sorting numbers is many times faster than finding their order
     many = np.bincount(one, minlength=count) + np.bincount(other, minlength=count)
@@ -77,8 +80,8 @@ def neighbours(spheres: Spheres) -> Neighbours:
     return Neighbours(np.concatenate([[0], np.cumsum(many)]), key)
 
 
-def _meetings(spheres: Spheres) -> tuple[Ints, Ints]:
-    """All pairs of n spheres that meet, each once, in the order in which the grid finds them."""
+def meeting_pairs(spheres: Spheres) -> tuple[Ints, Ints]:
+    """Return all pairs of n spheres with |cj − ci| < ri + rj, each once, in the order in which the grid finds them."""
     if len(spheres.radius) < 2:
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     index = grid_index(spheres)

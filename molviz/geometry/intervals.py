@@ -10,8 +10,11 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.rows import ordered
+from molviz.threads import in_threads
 
 TURN = 2.0 * np.pi
+BLOCK_ROWS = 1 << 16  # intervals at a time: their columns stay in cache
+PARTS = 1 << 16  # that sixteen bits can number
 
 
 class Intervals(NamedTuple):
@@ -52,7 +55,29 @@ def above(a: Floats, b: Floats, c: Floats) -> tuple[Floats, Floats]:
 def gaps(hidden: Intervals, count: int) -> Gaps:
     """Return the parts of circles 0 … count − 1 that no interval covers (closed intervals, so gaps are open).
 
-    One sort by start and a running maximum of ends. Intervals that wrap through θ = 0 enter twice, the second time
+    Many circles are taken in parts, so that sorting stays in cache.
+    """
+    parts = min(len(hidden.circle) // BLOCK_ROWS + 1, PARTS)
+    if parts == 1:
+        return _gaps(hidden, count)
+    many = -(-count // parts)  # circles a part
+    part = (hidden.circle // many).astype(np.uint16)
+    order = np.argsort(part, kind="stable")  # of sixteen bits: in one pass
+    begin = np.searchsorted(part[order], np.arange(parts + 1))
+
+    def of_part(number: int) -> Gaps:
+        rows, first = order[begin[number] : begin[number + 1]], number * many
+        some = Intervals(hidden.circle[rows] - first, hidden.start[rows], hidden.sweep[rows])
+        free = _gaps(some, max(min(many, count - first), 0))
+        rows = np.append(rows, -1)  # row −1 stays −1
+        return free._replace(circle=free.circle + first, before=rows[free.before], after=rows[free.after])
+
+    found = in_threads(of_part, range(parts))
+    return Gaps(*(np.concatenate(column) for column in zip(*found, strict=True)))
+
+
+def _gaps(hidden: Intervals, count: int) -> Gaps:
+    """The gaps of some circles: one sort by start and a running maximum of ends. Intervals that wrap through θ = 0 enter twice, the second time
     a turn earlier; the maximum runs over ranks instead of angles, so that circles need no offset and no precision
     is lost.
     """

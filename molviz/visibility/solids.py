@@ -6,8 +6,9 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.geometry.grid import Neighbours
-from molviz.geometry.rows import expand
+from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
+from molviz.threads import in_threads
 from molviz.vectors import dot
 from molviz.visibility.bounds import Bounds
 from molviz.visibility.eye import occluders_of
@@ -18,6 +19,7 @@ from molviz.visibility.projection import Projection
 from molviz.visibility.view import View
 
 BACKGROUND = -1
+BLOCK_ROWS = 1 << 16  # (point, solid) rows at a time: their columns stay in cache
 ABOVE = 1e-9  # ångström, by which a stick is nearer than the ball on which it lies
 
 
@@ -113,13 +115,18 @@ class Solids(NamedTuple):
 
         BACKGROUND where there is none.
         """
-        row, entry = expand(near.start[own], near.start[own + 1])
-        item = near.item[entry]
-        inside = np.flatnonzero(bounds.meet_discs(item, points[row], np.zeros(len(row))))
-        row, item = row[inside], item[inside]
-        surface, solid = self.surfaces(item, points[row], projection)
-        rows = np.flatnonzero(surface > -np.inf)
-        rows = rows[np.lexsort((surface[rows], row[rows]))]
-        nearest = np.full(len(own), BACKGROUND)
-        nearest[row[rows]] = solid[rows]  # ascending: the last one written is the nearest
-        return nearest
+        begin, end = near.start[own], near.start[own + 1]
+
+        def nearest(block: slice) -> Ints:
+            row, entry = expand(begin[block], end[block])
+            item, at = near.item[entry], points[block]
+            inside = np.flatnonzero(bounds.meet_discs(item, at.take(row, axis=0), np.zeros(len(row))))
+            row, item = row[inside], item[inside]
+            surface, solid = self.surfaces(item, at.take(row, axis=0), projection)
+            rows = np.flatnonzero(surface > -np.inf)
+            rows = rows[np.lexsort((surface[rows], row[rows]))]
+            found = np.full(len(at), BACKGROUND)
+            found[row[rows]] = solid[rows]  # ascending: the last one written is the nearest
+            return found
+
+        return np.concatenate([np.empty(0, dtype=np.int64), *in_threads(nearest, blocks(end - begin, BLOCK_ROWS))])

@@ -5,7 +5,8 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.grid import Neighbours
 from molviz.geometry.intervals import TURN, above
-from molviz.geometry.rows import expand
+from molviz.geometry.rows import blocks, expand
+from molviz.threads import in_threads
 from molviz.visibility.bounds import Bounds
 from molviz.visibility.curves import LINE, Curves
 from molviz.visibility.forms import Linear
@@ -25,10 +26,8 @@ NO_CONTOUR = -1  # an end that no contour explains; arcs that end there are dege
 def hidden_by_sticks(sticks: StickOccluders, curves: Curves, curve: Ints, stick: Ints, count: int) -> list[Hidden]:
     """Return the intervals of the given curves behind the given sticks, in blocks; their lines are contours from
     ``count``."""
-    return [
-        _behind(sticks, curves, curve[part], stick[part], count)
-        for part in np.array_split(np.arange(len(curve)), len(curve) // (BLOCK_ROWS // 4) + 1)
-    ]
+    parts = np.array_split(np.arange(len(curve)), len(curve) // (BLOCK_ROWS // 4) + 1)
+    return in_threads(lambda part: _behind(sticks, curves, curve[part], stick[part], count), parts)
 
 
 def _behind(sticks: StickOccluders, curves: Curves, curve: Ints, stick: Ints, count: int) -> Hidden:
@@ -126,11 +125,18 @@ def within_bounds(
 
     ``near`` is what may be in front of some of each solid.
     """
-    curve, entry = expand(near.start[count + of.stick], near.start[count + of.stick + 1])
-    solid, discs = near.item[entry], discs_of(of.curves, projection)
-    met = bounds.meet_discs(solid, discs.center[curve], discs.radius[curve])
-    rows = np.flatnonzero(met | (of.curves.kind[curve] == LINE))
-    return curve[rows], solid[rows]
+    begin, end = near.start[count + of.stick], near.start[count + of.stick + 1]
+    discs, line = discs_of(of.curves, projection), of.curves.kind == LINE
+
+    def within(block: slice) -> tuple[Ints, Ints]:
+        row, entry = expand(begin[block], end[block])
+        curve, solid = row + block.start, near.item[entry]
+        met = bounds.meet_discs(solid, discs.center.take(curve, axis=0), discs.radius[curve])
+        rows = np.flatnonzero(met | line[curve])
+        return curve[rows], solid[rows]
+
+    curve, solid = zip(*in_threads(within, blocks(end - begin, 4 * BLOCK_ROWS)), strict=True)
+    return np.concatenate(curve), np.concatenate(solid)
 
 
 def hidden_by_spheres(
@@ -146,11 +152,9 @@ def hidden_by_spheres(
         sticks.ends.sphere[of.end[curve]] == sphere))  # fmt: skip
     margin = spheres.plane_margin(of.curves, curve, sphere)
     rows = np.flatnonzero(~own & (margin.c + np.hypot(margin.a, margin.b) > 0))
-    parts = [
-        occlusion(spheres, of.curves, curve[part], sphere[part])
-        for part in np.array_split(rows, len(rows) // BLOCK_ROWS + 1)
-    ]
-    return [part._replace(curve=part.curve + first_curve) for part in parts]
+    parts = np.array_split(rows, len(rows) // BLOCK_ROWS + 1)
+    found = in_threads(lambda part: occlusion(spheres, of.curves, curve[part], sphere[part]), parts)
+    return [part._replace(curve=part.curve + first_curve) for part in found]
 
 
 def sticks_before(sticks: StickOccluders, of: StickCurves, curve: Ints, solid: Ints, count: int) -> tuple[Ints, Ints]:
