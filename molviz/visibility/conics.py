@@ -100,7 +100,7 @@ def _two_lines(form: Harmonics) -> tuple[Floats, Floats, Floats, Floats]:
 def _terms(total: Floats, difference: Floats, product: Floats) -> tuple[Floats, Floats]:
     """e and f from ``e + f``, ``f − e`` and ``e f``: by the sums, or by the product where these cancel.
 
-    The product is a difference of numbers as large as 1: beside a term near nought it is rounding, and the sums are not.
+    The product is a difference of numbers as large as 1: beside a term near nought it is rounding, the sums are not.
     """
     e, f = (total - difference) / 2, (total + difference) / 2
     return _unless_lost(e, f, product), _unless_lost(f, e, product)
