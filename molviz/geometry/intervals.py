@@ -77,9 +77,10 @@ def gaps(hidden: Intervals, count: int) -> Gaps:
 
 
 def _gaps(hidden: Intervals, count: int) -> Gaps:
-    """The gaps of some circles: one sort by start and a running maximum of ends. Intervals that wrap through θ = 0 enter twice, the second time
-    a turn earlier; the maximum runs over ranks instead of angles, so that circles need no offset and no precision
-    is lost.
+    """The gaps of some circles: one sort by start and a running maximum of ends.
+
+    Intervals that wrap through θ = 0 enter twice, the second time a turn earlier; the maximum runs over ranks, not
+    angles, so that circles need no offset and no precision is lost.
     """
     start = np.mod(hidden.start, TURN)
     start[(start >= TURN) | (hidden.sweep >= TURN)] = 0.0  # mod rounds a tiny negative angle up; and no seam in a whole

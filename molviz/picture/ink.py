@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
+from molviz.geometry.rows import ordered
 from molviz.visibility.horizon_runs import HorizonRuns
 from molviz.visibility.map import BACKGROUND
 
@@ -196,12 +197,15 @@ def _last_vertices(width: Floats, runs: HorizonRuns, end: int) -> tuple[Ints, Fl
     none.
     """
     vertices, last = runs.vertices, runs.last()
-    inner = np.setdiff1d(np.arange(len(vertices.run)), runs.ends)
+    is_end: Bools = np.zeros(len(vertices.run), dtype=bool)
+    is_end[runs.ends] = True
+    inner = np.flatnonzero(~is_end)
     run, place = vertices.run[inner], vertices.place[inner]
     distance = np.abs(end * last[run] - place) * (runs.length() / last)[run]
     partner = vertices.on_other_run(inner)
     meets = (partner >= 0) & (at_places(width, runs, vertices.run[partner], vertices.place[partner]) > 0)
-    order = np.lexsort((-distance, meets & (distance < CORNER), run))
+    later = np.where(meets & (distance < CORNER), 0.0, distance.max(initial=0.0))
+    order = ordered(run, -distance - later)
     row, away = runs.ends[end].copy(), np.full(len(last), np.inf)
     row[run[order]], away[run[order]] = inner[order], distance[order]  # the last one written is the nearest
     return row, away
