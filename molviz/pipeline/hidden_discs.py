@@ -8,10 +8,10 @@ from typing import TypeAlias
 
 import numpy as np
 
-from molviz.discs.arcs import Work, visible_perimeters
+from molviz.discs.arcs import Work
+from molviz.discs.bands import visible_perimeters
 from molviz.discs.grid import (
     UNIT_SQUARE,
-    CellLists,
     Grid,
     Square,
     bounding_square,
@@ -48,11 +48,10 @@ MOST_LETTERS = 100  # of a text: each is a few hundred spheres
 
 @dataclass(frozen=True)
 class HiddenDiscs:
-    """A scene without its hidden lines; ``lists`` are kept for the regions."""
+    """A scene without its hidden lines."""
 
     spheres: Spheres
     grid: Grid
-    lists: CellLists
     arcs: CircleArcs
     work: Work
     seconds: float
@@ -121,9 +120,8 @@ def hide_discs(spheres: Spheres, square: Square | None = None, across: int | Non
     begin = time.perf_counter()
     square = square or bounding_square(spheres)
     grid = Grid(square, across or franklin_count(spheres.radius, square))
-    lists = cell_lists(spheres, grid)
-    arcs, work = visible_perimeters(spheres, grid, lists)
-    return HiddenDiscs(spheres, grid, lists, arcs, work, time.perf_counter() - begin)
+    arcs, work = visible_perimeters(spheres, grid)
+    return HiddenDiscs(spheres, grid, arcs, work, time.perf_counter() - begin)
 
 
 def regions_of(scene: HiddenDiscs) -> DiscRegions:
@@ -139,7 +137,7 @@ def _regions(scene: HiddenDiscs, attempt: int) -> DiscRegions:
         scene = hide_discs(displaced(scene.spheres, seed=attempt - 1), across=scene.grid.across)
     if scene.work.pairs_touching:
         raise Degenerate
-    return visible_regions(scene.spheres, scene.grid, scene.lists, scene.arcs)
+    return visible_regions(scene.spheres, scene.grid, cell_lists(scene.spheres, scene.grid), scene.arcs)
 
 
 def picture_of(scene: HiddenDiscs, look: DiscLook, fill: bool = False) -> Picture:
