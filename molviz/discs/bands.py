@@ -6,8 +6,8 @@ counts are those of the whole.
 """
 
 import math
-from collections.abc import Iterator
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,6 +20,10 @@ from molviz.model.spheres import Spheres
 BAND_DISCS = 1 << 21  # that belong to a band: some 300 bytes each
 
 
+Found: TypeAlias = tuple[CircleArcs, Work]
+Each: TypeAlias = Callable[[Callable[["Band"], Found], Iterable["Band"]], Iterable[Found]]
+
+
 class Band(NamedTuple):
     """Some discs of a scene, in its order, that decide the arcs of a band's own; and the rows that are its own."""
 
@@ -30,16 +34,15 @@ class Band(NamedTuple):
     rows: range  # of cells
 
 
-def visible_perimeters(spheres: Spheres, grid: Grid) -> tuple[CircleArcs, Work]:
+def visible_perimeters(spheres: Spheres, grid: Grid, each: Each = map) -> tuple[CircleArcs, Work]:
     """Return the visible arcs of n ≥ 1 discs' perimeters, ordered by disc, and the work it took.
 
-    An arc's ``before`` and ``after`` are the discs that hide the perimeter beyond its ends; angles run
-    counter-clockwise from the x axis.
+    ``each`` does the bands in turn, as ``map`` does, or has others do them. An arc's ``before`` and ``after`` are the
+    discs that hide the perimeter beyond its ends; angles run counter-clockwise from the x axis.
     """
     columns: list[list[Any]] = [[] for _ in CircleArcs._fields]
     works = []
-    for band in bands(spheres, grid):
-        arcs, work = arcs_of_band(band)
+    for arcs, work in each(arcs_of_band, bands(spheres, grid)):
         works.append(work)
         for column, part in zip(columns, arcs, strict=True):
             column.append(part)
@@ -65,7 +68,7 @@ def bands(spheres: Spheres, grid: Grid) -> Iterator[Band]:
         yield Band(spheres.take(disc), disc, own, window, range(bottom, top))
 
 
-def arcs_of_band(band: Band) -> tuple[CircleArcs, Work]:
+def arcs_of_band(band: Band) -> Found:
     """Return the visible arcs of a band's own discs, with the rows of the scene, and the work of its own cells."""
     lists = cell_lists(band.spheres, band.grid)
     first = (band.rows.start - band.grid.bottom) * band.grid.across
