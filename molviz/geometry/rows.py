@@ -38,15 +38,18 @@ def offsets(owner: Ints, count: int) -> Ints:
 
 
 def ordered(owner: Ints, value: Floats) -> Ints:
-    """Return ``np.lexsort((value, owner))`` for m rows, faster where few values of an owner nearly agree.
+    """Return ``np.lexsort((value, owner))`` for m rows, faster: one sort by a single key, owner and value to ten digits.
 
-    One sort by a single key, owner and value to about ten digits, and the real thing only if that left any pair of
-    neighbours in the wrong order.
+    The key never falls where owner and value rise, so only rows of equal keys are left to sort, by value and place.
     """
     if len(value) == 0:
         return np.empty(0, dtype=np.int64)
     low, high = float(value.min()), float(value.max())
-    order = np.argsort(owner + (value - low) / (high - low + 1.0) * 0.999, kind="stable")
-    sorted_owner, sorted_value = owner[order], value[order]
-    wrong = (sorted_owner[1:] == sorted_owner[:-1]) & (sorted_value[1:] < sorted_value[:-1])
-    return np.lexsort((value, owner)) if wrong.any() else order
+    key = owner + (value - low) / (high - low + 1.0) * 0.999
+    order = np.argsort(key)
+    key = key[order]
+    again = np.append(False, key[1:] == key[:-1])
+    tied = np.flatnonzero(again | np.append(again[1:], False))
+    rows = order[tied]
+    order[tied] = rows[np.lexsort((rows, value[rows], key[tied]))]
+    return order
