@@ -9,10 +9,11 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.grid import Neighbours, intersecting_pairs
-from molviz.geometry.rows import offsets
+from molviz.geometry.rows import blocks, offsets
 from molviz.model.spheres import Spheres
+from molviz.threads import in_threads
 from molviz.vectors import cross, dot
-from molviz.visibility.occlusion import Discs
+from molviz.visibility.occlusion import BLOCK_ROWS, Discs
 
 ROOM = 1.0 + 1e-6  # of the radii of what just touches, for rounding
 
@@ -33,9 +34,8 @@ class Bounds(NamedTuple):
 
     def meet_discs(self, rows: Ints, center: Floats, radius: Floats) -> Bools:
         """Return whether stripes (p,) meet discs (p, 2), (p,)."""
-        begin, end = self.begin[rows], self.end[rows]
         reach = ROOM * (self.radius[rows] + radius)
-        return np.asarray(_square_distances(center, begin, end) < reach**2)
+        return np.asarray(_square_distances(center, self.begin[rows], self.end[rows]) < reach**2)
 
     def meet(self, one: Ints, other: Ints) -> Bools:
         """Return whether stripes (p,) meet others.
@@ -55,7 +55,8 @@ class Bounds(NamedTuple):
         discs = self.discs()
         flat = np.column_stack([discs.center, np.zeros(len(discs.radius))])
         one, other = intersecting_pairs(Spheres(flat, discs.radius))
-        rows = np.flatnonzero(self.meet(one, other))
+        met = in_threads(lambda block: self.meet(one[block], other[block]), blocks(np.ones_like(one), BLOCK_ROWS))
+        rows = np.flatnonzero(np.concatenate([*met, np.empty(0, dtype=bool)]))
         one, other = one[rows], other[rows]
         owner, item = np.concatenate([one, other]), np.concatenate([other, one])
         order = np.argsort(owner * len(self.radius) + item)
@@ -69,11 +70,12 @@ class Bounds(NamedTuple):
 
 def _square_distances(point: Floats, begin: Floats, end: Floats) -> Floats:
     """The squares of the distances (p,) of points from straight lines between two points, all (p, 2)."""
-    along, toward = end - begin, point - begin
-    square = dot(along, along)
-    share = np.divide(dot(toward, along), square, out=np.zeros_like(square), where=square > 0)
-    apart = toward - np.clip(share, 0.0, 1.0)[:, None] * along
-    return dot(apart, apart)
+    x, y = point[:, 0] - begin[:, 0], point[:, 1] - begin[:, 1]
+    along_x, along_y = end[:, 0] - begin[:, 0], end[:, 1] - begin[:, 1]
+    square = along_x**2 + along_y**2
+    share = np.divide(x * along_x + y * along_y, square, out=np.zeros_like(square), where=square > 0)
+    share = np.clip(share, 0.0, 1.0)
+    return np.asarray((x - share * along_x) ** 2 + (y - share * along_y) ** 2)
 
 
 def _cross(a: Floats, b: Floats, c: Floats, d: Floats) -> Bools:

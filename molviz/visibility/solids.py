@@ -6,14 +6,15 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.geometry.grid import Neighbours
-from molviz.geometry.rows import expand
+from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
+from molviz.threads import in_threads
 from molviz.vectors import dot
 from molviz.visibility.bounds import Bounds
 from molviz.visibility.eye import occluders_of
 from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.occluders.stick import StickOccluders
-from molviz.visibility.occlusion import Discs, discs_of, overlaps
+from molviz.visibility.occlusion import BLOCK_ROWS, Discs, discs_of, overlaps
 from molviz.visibility.projection import Projection
 from molviz.visibility.view import View
 
@@ -113,13 +114,19 @@ class Solids(NamedTuple):
 
         BACKGROUND where there is none.
         """
-        row, entry = expand(near.start[own], near.start[own + 1])
-        item = near.item[entry]
-        inside = np.flatnonzero(bounds.meet_discs(item, points[row], np.zeros(len(row))))
-        row, item = row[inside], item[inside]
-        surface, solid = self.surfaces(item, points[row], projection)
-        rows = np.flatnonzero(surface > -np.inf)
-        rows = rows[np.lexsort((surface[rows], row[rows]))]
-        nearest = np.full(len(own), BACKGROUND)
-        nearest[row[rows]] = solid[rows]  # ascending: the last one written is the nearest
-        return nearest
+        begin, end = near.start[own], near.start[own + 1]
+
+        def nearest_in(block: slice) -> Ints:
+            row, entry = expand(begin[block], end[block])
+            item, page = near.item[entry], points[block]
+            inside = np.flatnonzero(bounds.meet_discs(item, page[row], np.zeros(len(row))))
+            row, item = row[inside], item[inside]
+            surface, solid = self.surfaces(item, page[row], projection)
+            rows = np.flatnonzero(surface > -np.inf)
+            rows = rows[np.lexsort((surface[rows], row[rows]))]
+            nearest = np.full(len(page), BACKGROUND)
+            nearest[row[rows]] = solid[rows]  # ascending: the last one written is the nearest
+            return nearest
+
+        found = in_threads(nearest_in, blocks(end - begin, 4 * BLOCK_ROWS))
+        return np.concatenate([*found, np.empty(0, dtype=np.int64)])
