@@ -38,7 +38,7 @@ def offsets(owner: Ints, count: int) -> Ints:
 
 
 def ordered(owner: Ints, value: Floats) -> Ints:
-    """Return ``np.lexsort((value, owner))`` for m rows, faster: one sort by a single key, owner and value to ten digits.
+    """Return ``np.lexsort((value, owner))`` for m rows, faster: one sort by one key, owner and value to ten digits.
 
     The key never falls where owner and value rise, so only rows of equal keys are left to sort, by value and place.
     """
