@@ -9,9 +9,12 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.rows import ordered
+from molviz.geometry.rows import offsets, ordered
+from molviz.threads import in_threads
 
 TURN = 2.0 * np.pi
+BLOCK_ROWS = 1 << 16  # intervals at a time: their columns stay in cache
+MOST_BLOCKS = 1 << 10
 
 
 class Intervals(NamedTuple):
@@ -52,9 +55,31 @@ def above(a: Floats, b: Floats, c: Floats) -> tuple[Floats, Floats]:
 def gaps(hidden: Intervals, count: int) -> Gaps:
     """Return the parts of circles 0 … count − 1 that no interval covers (closed intervals, so gaps are open).
 
-    One sort by start and a running maximum of ends. Intervals that wrap through θ = 0 enter twice, the second time
-    a turn earlier; the maximum runs over ranks instead of angles, so that circles need no offset and no precision
-    is lost.
+    In blocks of consecutive circles, shared by threads.
+    """
+    number = min(len(hidden.circle) // BLOCK_ROWS + 1, MOST_BLOCKS)
+    if number == 1:
+        return _gaps(hidden, count)
+    first = np.arange(number + 1) * count // number
+    block = (np.searchsorted(first, hidden.circle, side="right") - 1).astype(np.uint16)  # which are sorted fast
+    order = np.argsort(block, kind="stable")
+    begin = offsets(block, number)
+
+    def gaps_in(part: int) -> Gaps:
+        rows = np.append(order[begin[part] : begin[part + 1]], -1)
+        circle, start, sweep = (column[rows[:-1]] for column in hidden)
+        found = _gaps(Intervals(circle - first[part], start, sweep), int(first[part + 1] - first[part]))
+        return Gaps(found.circle + first[part], found.start, found.sweep, rows[found.before], rows[found.after])
+
+    found = in_threads(gaps_in, range(number))
+    return Gaps(*(np.concatenate(column) for column in zip(*found, strict=True)))
+
+
+def _gaps(hidden: Intervals, count: int) -> Gaps:
+    """One sort by start and a running maximum of ends.
+
+    Intervals that wrap through θ = 0 enter twice, the second time a turn earlier; the maximum runs over ranks instead
+    of angles, so that circles need no offset and no precision is lost.
     """
     start = np.mod(hidden.start, TURN)
     start[(start >= TURN) | (hidden.sweep >= TURN)] = 0.0  # mod rounds a tiny negative angle up; and no seam in a whole

@@ -196,7 +196,9 @@ def _last_vertices(width: Floats, runs: HorizonRuns, end: int) -> tuple[Ints, Fl
     none.
     """
     vertices, last = runs.vertices, runs.last()
-    inner = np.setdiff1d(np.arange(len(vertices.run)), runs.ends)
+    is_end = np.zeros(len(vertices.run), dtype=bool)
+    is_end[runs.ends] = True
+    inner = np.flatnonzero(~is_end)
     run, place = vertices.run[inner], vertices.place[inner]
     distance = np.abs(end * last[run] - place) * (runs.length() / last)[run]
     partner = vertices.on_other_run(inner)
