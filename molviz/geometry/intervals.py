@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.rows import offsets, ordered
+from molviz.geometry.rows import ordered
 from molviz.threads import in_threads
 
 TURN = 2.0 * np.pi
@@ -63,7 +63,7 @@ def gaps(hidden: Intervals, count: int) -> Gaps:
     first = np.arange(number + 1) * count // number
     block = (np.searchsorted(first, hidden.circle, side="right") - 1).astype(np.uint16)  # which are sorted fast
     order = np.argsort(block, kind="stable")
-    begin = offsets(block, number)
+    begin = np.concatenate([[0], np.cumsum(np.bincount(block, minlength=number))])
 
     def gaps_in(part: int) -> Gaps:
         rows = np.append(order[begin[part] : begin[part + 1]], -1)
