@@ -7,11 +7,13 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.geometry.components import component_labels
-from molviz.geometry.rows import expand, offsets
+from molviz.geometry.rows import blocks, expand, offsets
+from molviz.threads import in_threads
 from molviz.vectors import dot
 from molviz.visibility.curves import LINE
 from molviz.visibility.eye import occluders_of, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
+from molviz.visibility.occlusion import BLOCK_ROWS
 from molviz.visibility.solids import Solids
 from molviz.visibility.view import View
 
@@ -188,7 +190,11 @@ def _behind_at(right: Ints, sweep: Floats, first: Ints, last: Ints, owner: Ints,
 
 def _jumps(view_map: VisibilityMap, view: View, near: Floats, own: Ints, behind: Ints, page: Floats) -> Floats:
     solids = Solids(occluders_of(view_map.spheres, view), view_map.sticks)
-    surface, _ = solids.surfaces(solids.rows(np.maximum(behind, 0)), page, projection_of(view))
+    row, projection = solids.rows(np.maximum(behind, 0)), projection_of(view)
+    parts = in_threads(
+        lambda block: solids.surfaces(row[block], page[block], projection)[0], blocks(np.ones_like(row), BLOCK_ROWS)
+    )
+    surface = np.concatenate([*parts, np.empty(0)])
     jump = np.maximum(near - surface, 0.0)  # rounding beside a silhouette of the surface: −∞
     own_radius = view_map.spheres.radius[own]
     return np.where(behind == BACKGROUND, np.inf, np.where(np.isfinite(jump), jump, own_radius))
