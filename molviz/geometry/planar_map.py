@@ -48,8 +48,8 @@ def planar_map(origin: Ints, target: Ints, left: Ints, right: Ints) -> PlanarMap
     """
     begin, end, face = directed(origin, target), directed(target, origin), directed(left, right)
     used = np.flatnonzero(face != UNUSED)
-    leaving = used[np.lexsort((face[used], begin[used]))]
-    arriving = used[np.lexsort((face[used], end[used]))]
+    faces = int(face.max(initial=0)) - UNUSED + 1
+    leaving, arriving = (used[np.argsort(vertex[used] * faces + face[used])] for vertex in (begin, end))
     balanced = np.array_equal(begin[leaving], end[arriving]) and np.array_equal(face[leaving], face[arriving])
     again = (np.diff(begin[leaving]) == 0) & (np.diff(face[leaving]) == 0)
     if not balanced or again.any():
@@ -164,5 +164,6 @@ def oriented(arcs: PlaneArcs, half_edge: Ints) -> PlaneArcs:
 
 def loop_areas(arcs: PlaneArcs, boundary: Loops) -> Floats:
     """Return the signed area of each loop, ``½ ∮ x dy − y dx``; positive where the interior is inside."""
-    area = oriented(arcs, boundary.half_edge).signed_area()
+    forward = arcs.signed_area()
+    area = np.stack([forward, -forward], axis=1).ravel()[boundary.half_edge]
     return np.add.reduceat(area, boundary.start[:-1]) if len(boundary.half_edge) else np.empty(0)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.rows import blocks
+from molviz.geometry.rows import blocks, ordered
 from molviz.threads import in_threads
 from molviz.visibility.horizon_runs import HorizonRuns
 from molviz.visibility.map import BACKGROUND
@@ -225,7 +225,7 @@ def _last_vertices(width: Floats, runs: HorizonRuns, end: int) -> tuple[Ints, Fl
     distance = np.abs(end * last[run] - place) * (runs.length() / last)[run]
     partner = vertices.on_other_run(inner)
     meets = (partner >= 0) & (at_places(width, runs, vertices.run[partner], vertices.place[partner]) > 0)
-    order = np.lexsort((-distance, meets & (distance < CORNER), run))
+    order = ordered(2 * run + (meets & (distance < CORNER)), -distance)
     row, away = runs.ends[end].copy(), np.full(len(last), np.inf)
     row[run[order]], away[run[order]] = inner[order], distance[order]  # the last one written is the nearest
     return row, away
@@ -247,11 +247,10 @@ def widest_other(width: Floats, runs: HorizonRuns, row: Ints) -> Floats:
     """Return the width of the widest line at the nodes of the given vertices' rows (q,), their own runs left out."""
     vertices = runs.vertices
     here = at_places(width, runs, vertices.run, vertices.place)
-    order = np.argsort(here, kind="stable")
-    best, second = np.full(len(here), -1), np.zeros(len(here))
-    best[vertices.node[order]] = vertices.run[order]  # by node; the last one written is the widest
-    widest = np.zeros(len(here))
+    best, second, widest = np.full(len(here), -1), np.zeros(len(here)), np.zeros(len(here))
     np.maximum.at(widest, vertices.node, here)
+    rows = np.flatnonzero(here == widest[vertices.node])
+    best[vertices.node[rows]] = vertices.run[rows]  # by node; the last one written, where two are the widest
     other = np.flatnonzero(vertices.run != best[vertices.node])
     np.maximum.at(second, vertices.node[other], here[other])
     node = vertices.node[row]

@@ -7,7 +7,7 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.geometry.components import component_labels
-from molviz.geometry.rows import blocks, expand, offsets
+from molviz.geometry.rows import blocks, expand, offsets, ordered
 from molviz.threads import in_threads
 from molviz.vectors import dot
 from molviz.visibility.curves import LINE
@@ -157,7 +157,7 @@ def _places(sweep: Floats, run: Ints, first: Ints, samples: Floats) -> Floats:
 def _vertices(vertex: Ints, run: Ints, place: Floats, length: Floats, last: Ints) -> tuple[Vertices, Ints]:
     """The table of the starts of all arcs, followed by their ends, and the rows of the runs' own starts and ends."""
     place = np.minimum(place, last[run])
-    along = np.lexsort((place, run))
+    along = ordered(run, place)
     near = np.diff(place[along]) * (length / last)[run[along][1:]] < NODE
     near &= run[along][1:] == run[along][:-1]
     same = np.argsort(vertex, kind="stable")
