@@ -64,7 +64,9 @@ def intersecting_pairs(spheres: Spheres) -> tuple[Ints, Ints]:
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     index = grid_index(spheres)
     columns = (*np.ascontiguousarray(index.spheres.center.T), index.spheres.radius)
-    meetings = in_threads(lambda block: _meeting(columns, *block), _candidate_blocks(index))
+    candidates = list(_candidate_blocks(index))
+    few = len(candidates) <= 1 + len(LATER_COLUMNS)  # a block for each range of columns: no work for threads
+    meetings = (map if few else in_threads)(lambda block: _meeting(columns, *block), candidates)
     one, other = (index.row[np.concatenate(column)] for column in zip(*meetings, strict=True))
     first, second = np.minimum(one, other), np.maximum(one, other)
     order = np.argsort(first * len(spheres.radius) + second)

@@ -107,7 +107,8 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     behind = _behind_at(view_map.right[row], sweep, first, last, owner, beside)
     t = arcs.start[owner] + offset
     near = _nearness(view_map, view, row[first], row[last], line[first], owner, place / (count[owner] - 1))
-    jump = _jumps(view_map, view, near, owner_of[solid[owner]], behind, arcs.take(owner).at(t))
+    surface = _surfaces(view_map, view, behind, arcs, owner, t)
+    jump = _jumps(view_map, near, owner_of[solid[owner]], behind, surface)
     closed = origin[first] == target[last]
     sphere, behind = owner_of[solid], owner_of[behind]
     return HorizonRuns(
@@ -188,13 +189,18 @@ def _behind_at(right: Ints, sweep: Floats, first: Ints, last: Ints, owner: Ints,
     return right[np.clip(place, first[owner], last[owner])]
 
 
-def _jumps(view_map: VisibilityMap, view: View, near: Floats, own: Ints, behind: Ints, page: Floats) -> Floats:
-    solids = Solids(occluders_of(view_map.spheres, view), view_map.sticks)
-    row, projection = solids.rows(np.maximum(behind, 0)), projection_of(view)
-    parts = in_threads(
-        lambda block: solids.surfaces(row[block], page[block], projection)[0], blocks(np.ones_like(row), BLOCK_ROWS)
-    )
-    surface = np.concatenate([*parts, np.empty(0)])
+def _surfaces(view_map: VisibilityMap, view: View, behind: Ints, arcs: PlaneArcs, owner: Ints, t: Floats) -> Floats:
+    """How near the solids behind samples (s,) are there, in blocks, shared by threads; of BACKGROUND any number."""
+    solids, projection = Solids(occluders_of(view_map.spheres, view), view_map.sticks), projection_of(view)
+    row = solids.rows(np.maximum(behind, 0))
+
+    def surfaces_in(block: slice) -> Floats:
+        return solids.surfaces(row[block], arcs.take(owner[block]).at(t[block]), projection)[0]
+
+    return np.concatenate([*in_threads(surfaces_in, blocks(np.ones_like(row), BLOCK_ROWS)), np.empty(0)])
+
+
+def _jumps(view_map: VisibilityMap, near: Floats, own: Ints, behind: Ints, surface: Floats) -> Floats:
     jump = np.maximum(near - surface, 0.0)  # rounding beside a silhouette of the surface: −∞
     own_radius = view_map.spheres.radius[own]
     return np.where(behind == BACKGROUND, np.inf, np.where(np.isfinite(jump), jump, own_radius))
