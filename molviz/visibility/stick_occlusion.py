@@ -21,7 +21,6 @@ from molviz.visibility.stick_curves import StickCurves
 
 CONDITIONS = 5
 SILHOUETTE_PLANE = 2  # the condition of being behind it
-MOST_FAIL_FIRST = (SILHOUETTE_PLANE, 3, 4, 0, 1)
 MIDDLE_THIRD = 0.5 + 1e-6  # the largest cosine on it, and room for rounding
 NO_CONTOUR = -1  # an end that no contour explains; arcs that end there are degenerate
 
@@ -110,27 +109,23 @@ def _behind(sticks: StickOccluders, curves: Curves, curve: Ints, stick: Ints, co
     whole. Where a curve passes behind one of the two lines is a T-junction; elsewhere balls hide it on either side.
     """
     side = _joint_sides(sticks, curves, curve, stick, count)
-    short = (curves.kind[curve] == LINE) & (side == 0)
-    margins: list[Linear] = []
-    for condition in MOST_FAIL_FIRST:
-        margin = sticks.behind(curves, curve, stick, condition)
-        rows = np.flatnonzero(_holds_somewhere(margin, short))
-        margins = [one.take(rows) for one in (*margins, margin)]
-        curve, stick, side, short = curve[rows], stick[rows], side[rows], short[rows]
-    margins = [margins[MOST_FAIL_FIRST.index(condition)] for condition in range(CONDITIONS)]
+    margins = sticks.all_behind(curves, curve, stick)
+    rows = np.flatnonzero(_holds_somewhere(margins, (curves.kind[curve] == LINE) & (side == 0)).all(axis=0))
+    margins = Linear(*(column[:, rows] for column in margins))
     angle, real = _ends(margins)
-    rows = np.flatnonzero(real.any(axis=1) | _holds_at(margins, np.zeros((len(curve), 1)))[:, 0])
-    margins = [margin.take(rows) for margin in margins]
-    curve, stick, side, real, angle = curve[rows], stick[rows], side[rows], real[rows], angle[rows]
-    angle = np.where(real, angle, np.nan)
+    hidden = np.flatnonzero(real.any(axis=0) | (margins.a + margins.c > 0).all(axis=0))
+    curve, stick, side = (column[rows[hidden]] for column in (curve, stick, side))
+    margins = Linear(*(column[:, hidden] for column in margins))
+    angle = np.ascontiguousarray(np.where(real, angle, np.nan)[:, hidden].T)
+    amount = np.sum(real[:, hidden], axis=0)
     order = np.argsort(angle, axis=1)
     start = np.take_along_axis(angle, order, axis=1)
-    amount = np.sum(real, axis=1)
-    last = np.arange(start.shape[1]) == amount[:, None] - 1
+    last = np.arange(2 * CONDITIONS) == amount[:, None] - 1
     sweep = np.where(last, start[:, :1] + TURN, np.roll(start, -1, axis=1)) - start
     start[amount == 0, 0], sweep[amount == 0, 0] = 0.0, TURN
-    most = max(int(amount.max(initial=1)), 1)
-    row, column = np.nonzero(_holds_at(margins, (start + sweep / 2)[:, :most]))
+    row, column = np.nonzero(np.arange(2 * CONDITIONS) < np.maximum(amount, 1)[:, None])
+    behind = np.flatnonzero(_all_hold(margins, row, start[row, column] + sweep[row, column] / 2))
+    row, column = row[behind], column[behind]
     after = np.where(column + 1 < np.maximum(amount, 1)[row], column + 1, 0)
     begins, ends = ((order // 2)[row, place] for place in (column, after))
     reason = np.full(len(row), FRONT)
@@ -177,31 +172,25 @@ def _up_to_joints(hidden: Hidden, side: Ints, begins: Bools, ends: Bools) -> Hid
     return Hidden(*(column[rows] for column in hidden))  # type: ignore[arg-type]
 
 
-def _ends(margins: list[Linear]) -> tuple[Floats, Bools]:
-    """The end points (m, 10) of the five conditions in [0, 2π), two each, and which of them count."""
-    angles, exists = [], []
-    for margin in margins:
-        middle, half = above(margin.a, margin.b, -margin.c)
-        cuts = (half > 0) & (half < np.pi)
-        angles += [middle - half, middle + half]
-        exists += [cuts, cuts]
-    angle, real = np.mod(np.stack(angles, axis=1), TURN), np.stack(exists, axis=1)
-    cosine, sine = np.cos(angle), np.sin(angle)
-    for condition, margin in enumerate(margins):
-        holds = _at(margin, cosine, sine) > 0
-        holds[:, 2 * condition : 2 * condition + 2] = True
-        real &= holds
+def _ends(margins: Linear) -> tuple[Floats, Bools]:
+    """The end points (10, m) of the five conditions in [0, 2π), two each, and which of them count."""
+    middle, half = above(margins.a, margins.b, -margins.c)
+    cuts = (half > 0) & (half < np.pi)
+    angle = np.mod(np.stack([middle - half, middle + half], axis=1).reshape(2 * CONDITIONS, -1), TURN)
+    real = np.repeat(cuts, 2, axis=0)
+    place, column = np.nonzero(real)
+    real[place, column] = _all_hold(margins, column, angle[place, column], place // 2)
     return angle, real
 
 
-def _holds_at(margins: list[Linear], angle: Floats) -> Bools:
-    """Whether all conditions hold at angles (m, k)."""
+def _all_hold(margins: Linear, column: Ints, angle: Floats, but: Ints | None = None) -> Bools:
+    """Whether all conditions, ``but`` one each, hold on functions of the given columns (k,) at angles (k,)."""
     cosine, sine = np.cos(angle), np.sin(angle)
-    return np.asarray(np.all([_at(margin, cosine, sine) > 0 for margin in margins], axis=0))
-
-
-def _at(margin: Linear, cosine: Floats, sine: Floats) -> Floats:
-    return np.asarray(margin.a[:, None] * cosine + margin.b[:, None] * sine + margin.c[:, None])
+    hold = np.ones(len(column), dtype=bool)
+    for condition, (a, b, c) in enumerate(zip(*margins, strict=True)):
+        holds = a[column] * cosine + b[column] * sine + c[column] > 0
+        hold &= holds if but is None else holds | (but == condition)
+    return hold
 
 
 def _contour(condition: Ints, stick: Ints, count: int) -> Ints:

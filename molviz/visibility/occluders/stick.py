@@ -64,6 +64,14 @@ class StickOccluders(NamedTuple):
         plane, at = self.planes[stick, condition], self.at[stick, condition]
         return plane_function(curves, curve, self.start[stick], plane, at)
 
+    def all_behind(self, curves: Curves, curve: Ints, stick: Ints) -> Linear:
+        """Return the same for all five conditions, each a row of functions on the m curves: columns are (5, m)."""
+        planes = np.ascontiguousarray(self.planes[stick].transpose(2, 1, 0))  # x, y and z of the five
+        a, b = curves.a[curve], curves.b[curve]
+        m = curves.center[curve] - self.start[stick]
+        on_a, on_b, on_m = (planes[0] * v[:, 0] + planes[1] * v[:, 1] + planes[2] * v[:, 2] for v in (a, b, m))
+        return Linear(on_a, on_b, on_m - self.at[stick].T)
+
     def hits(self, stick: Ints, origin: Floats, ray: Floats) -> tuple[Floats, Bools]:
         """Return how far along unit rays (m, 3) from points (m, 3) sticks are hit, and whether beyond their middles.
 
