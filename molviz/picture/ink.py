@@ -14,7 +14,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.rows import blocks, ordered
-from molviz.threads import in_threads
+from molviz.threads import both, in_threads
 from molviz.visibility.horizon_runs import HorizonRuns
 from molviz.visibility.map import BACKGROUND
 
@@ -106,11 +106,18 @@ def line_widths(
     width = np.minimum(width, WIDEST_SHARE * runs.detail[runs.owner()])
     width = _smoothed(_fading(width * (1.0 - FARTHER_THINNER * far[own]), runs), runs, SIGMA)
     thinnest = max(THINNEST, THINNEST_SHARE * inside)
-    width[width < thinnest] = 0.0
-    width[_spurs(runs, width, SPUR_SHARE * inside)] = 0.0
-    width, ends = _entering(width, runs, np.where(foreign, crease, 0.0))
-    width[width < thinnest] = 0.0
-    return Widths(_joining(width, runs, ends), _dark_share(background | foreign, runs), ends)
+
+    def ending() -> tuple[Floats, Ints]:
+        width[width < thinnest] = 0.0
+        width[_spurs(runs, width, SPUR_SHARE * inside)] = 0.0
+        entering, ends = _entering(width, runs, np.where(foreign, crease, 0.0))
+        entering[entering < thinnest] = 0.0
+        return _joining(entering, runs, ends), ends
+
+    dark, (joining, ends) = both(
+        lambda: _dark_share(background | foreign, runs), ending, len(width) > BLOCK_SAMPLES
+    )
+    return Widths(joining, dark, ends)
 
 
 def _by_blocks(runs: HorizonRuns, values_in: Callable[[slice], Floats]) -> Floats:

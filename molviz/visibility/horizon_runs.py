@@ -8,7 +8,7 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.geometry.components import component_labels
 from molviz.geometry.rows import blocks, expand, offsets, ordered
-from molviz.threads import in_threads
+from molviz.threads import both, in_threads
 from molviz.vectors import dot
 from molviz.visibility.curves import LINE
 from molviz.visibility.eye import occluders_of, projection_of
@@ -96,7 +96,6 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     start = offsets(np.repeat(np.arange(len(first)), count), len(first))
     run = np.repeat(np.arange(len(first)), last - first + 1)
     places = _places(sweep, run, first, (count - 1) / arcs.sweep)
-    vertices = _vertices(np.append(origin, target), np.tile(run, 2), places.ravel(), length, count - 1)
     run_of_arc, place_of_arc = np.full(len(curve_arcs.curve), -1), np.zeros((2, len(curve_arcs.curve)))
     run_of_arc[row], place_of_arc[:, row] = run, places
     owner, place = expand(np.zeros_like(count), count)
@@ -107,7 +106,10 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     behind = _behind_at(view_map.right[row], sweep, first, last, owner, beside)
     t = arcs.start[owner] + offset
     near = _nearness(view_map, view, row[first], row[last], line[first], owner, place / (count[owner] - 1))
-    surface = _surfaces(view_map, view, behind, arcs, owner, t)
+    vertices, surface = both(
+        lambda: _vertices(np.append(origin, target), np.tile(run, 2), places.ravel(), length, count - 1),
+        lambda: _surfaces(view_map, view, behind, arcs, owner, t), len(owner) > BLOCK_ROWS,
+    )  # fmt: skip
     jump = _jumps(view_map, near, owner_of[solid[owner]], behind, surface)
     closed = origin[first] == target[last]
     sphere, behind = owner_of[solid], owner_of[behind]

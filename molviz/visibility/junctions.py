@@ -8,9 +8,10 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
 from molviz.geometry.rows import expand, ordered
+from molviz.threads import both
 from molviz.vectors import dot
 from molviz.visibility.curves import HORIZON, Curves
-from molviz.visibility.named_arcs import NamedArcs, vertex_numbers
+from molviz.visibility.named_arcs import MANY, NamedArcs, vertex_numbers
 from molviz.visibility.names import EDGE, ELBOW, ENTRY, HALF, TEE, WHOLE
 from molviz.visibility.solids import Solids
 
@@ -47,10 +48,11 @@ def split_at_junctions(named: NamedArcs, curves: Curves, solids: Solids, central
     junction lies on no visible contour.
     """
     origin, target = vertex_numbers(named.origin, named.target)
-    tees = [
-        _junctions(named, curves, solids, central, name, vertex, fraction)
-        for name, vertex, fraction in ((named.origin, origin, 0.0), (named.target, target, 1.0))
-    ]
+    tees = both(
+        lambda: _junctions(named, curves, solids, central, named.origin, origin, 0.0),
+        lambda: _junctions(named, curves, solids, central, named.target, target, 1.0),
+        len(named.curve) > MANY,
+    )
     junctions = _Junctions(*(np.concatenate(column) for column in zip(*tees, strict=True)))
     entered = np.full(int(max(origin.max(initial=-1), target.max(initial=-1))) + 1, -1)
     for name, vertex in ((named.origin, origin), (named.target, target)):
