@@ -1,9 +1,11 @@
 """Gaps of intervals on circles, against sampling."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from molviz.geometry import intervals
 from molviz.geometry.intervals import TURN, Intervals, above, gaps
 
 interval = st.tuples(st.integers(0, 3), st.floats(-20, 20), st.floats(1e-3, TURN))
@@ -50,3 +52,12 @@ def test_above_solves_the_inequality() -> None:
 @given(st.floats(-20, 20))
 def test_a_whole_turn_leaves_no_seam(start: float) -> None:
     assert len(gaps(Intervals(np.array([0]), np.array([start]), np.array([TURN])), 1).circle) == 0
+
+
+@pytest.mark.parametrize("rows", [1, 7, 500])
+def test_gaps_are_the_same_in_blocks_of_circles(rows: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    random = np.random.default_rng(rows)
+    hidden = Intervals(random.integers(3, 90, 600), random.uniform(-9, 9, 600), random.uniform(0.01, 2, 600))
+    whole = gaps(hidden, 100)
+    monkeypatch.setattr(intervals, "BLOCK_ROWS", rows)
+    assert all(np.array_equal(*both) for both in zip(gaps(hidden, 100), whole, strict=True))
