@@ -10,12 +10,13 @@ PICTURES := $(foreach stem,$(STEMS),pictures/$(stem).svg pictures/$(stem).ps)
 DRAW_OPTIONS ?=
 FUZZ ?=
 SOAK ?=
+PATCHES ?=
 BENCH_FILES ?=
 # for black lines and text, which a dark page would swallow
 PAPER := --background white
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check page pictures gallery bench tables figures fuzz soak numpies clean
+.PHONY: help demo test check page pictures gallery bench tables figures fuzz soak patches numpies clean
 
 help: ## show this help
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -23,6 +24,7 @@ help: ## show this help
 $(VENV)/installed: pyproject.toml ## (environment with molviz installed)
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --editable .
+	$(BIN)/python -m compileall -q molviz
 	touch $@
 
 $(VENV)/developed: $(VENV)/installed
@@ -98,6 +100,9 @@ fuzz: $(VENV)/developed ## inputs that nobody would write (FUZZ="--seed 1 --coun
 
 soak: $(VENV)/developed ## scenes against a z-buffer, closed forms and all invariants (SOAK="--seed 1 --count 5000")
 	$(BIN)/python -m tests.soak $(SOAK)
+
+patches: $(VENV)/developed ## 100,000 points of every kind of patch of smooth surfaces (PATCHES="--seed 1")
+	$(BIN)/python -m tests.patches $(PATCHES)
 
 numpies: $(VENV)/developed ## compare the bytes that two versions of numpy give
 	@for version in 1.26.4 2.0.2; do \

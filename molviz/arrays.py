@@ -1,6 +1,7 @@
-"""Names for the array types that all tables are made of."""
+"""Names for the array types that all tables are made of, and sets of values."""
 
-from typing import TYPE_CHECKING, TypeAlias
+from collections.abc import Container
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -20,3 +21,20 @@ if TYPE_CHECKING:
     Texts: TypeAlias = NDArray[np.object_]
 else:  # importing numpy.typing takes longer than drawing a small molecule
     Floats = Ints = Bools = Strings = Singles = Masks = Octets = Words = ShortInts = Fields = Texts = np.ndarray
+
+Values = TypeVar("Values", "Floats", "Ints", "Strings")
+
+
+def distinct(values: Values) -> Values:
+    """Return the distinct values of an array (n,), ascending.
+
+    ``np.unique`` alone loads numpy's masked arrays first, which takes longer than small drawings do.
+    """
+    ordered: Values = np.sort(values)
+    known: Values = ordered[np.append(True, ordered[1:] != ordered[:-1])[: len(ordered)]]
+    return known
+
+
+def among(values: "Strings", words: Container[str]) -> "Bools":
+    """Return which of the strings (n,) are one of the words. ``np.isin`` would sort all of them."""
+    return np.fromiter((value in words for value in values.tolist()), dtype=np.bool_, count=len(values))

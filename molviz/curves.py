@@ -23,7 +23,7 @@ class PlaneArcs(NamedTuple):
 
     def take(self, rows: Ints) -> "PlaneArcs":
         """Return the given rows, in that order."""
-        return PlaneArcs(*(column[rows] for column in self))
+        return PlaneArcs(*(column.take(rows, axis=0) for column in self))
 
     def at(self, t: Floats) -> Floats:
         """Return the points (k, 2) at one parameter per arc."""

@@ -9,6 +9,7 @@ from molviz.geometry.smooth import cut_triangles, probes_of, saddles_of
 from molviz.geometry.spherical_faces import face_at
 from molviz.model.spheres import Spheres
 
+KINDS = ("convex", "saddle", "singular saddle", "concave", "cut concave")
 FREE = 1e-9  # Å, by which a candidate may be inside a ball
 
 
@@ -68,12 +69,12 @@ def unit(vectors: np.ndarray) -> np.ndarray:
 def points_of_patches(
     graph: BoundaryGraph, probe: float, count: int, random: np.random.Generator
 ) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """By kind: random points (q, 3) of whole patches, and whether they are said to be left of them."""
-    return {
-        "convex": convex_points(graph, probe, count, random),
-        "saddle": saddle_points(graph, probe, count, random),
-        "concave": concave_points(graph, probe, count, random),
-    }
+    """By kind: random points (q, 3) of whole patches, and whether they are said to be left of them.
+
+    Singular saddles cross their axis; cut concave patches are cut by other probes.
+    """
+    convex, saddles = convex_points(graph, probe, count, random), saddle_points(graph, probe, count, random)
+    return dict(zip(KINDS, [convex, *saddles, *concave_points(graph, probe, count, random)], strict=True))
 
 
 def convex_points(
@@ -88,12 +89,23 @@ def convex_points(
 
 def saddle_points(
     graph: BoundaryGraph, probe: float, count: int, random: np.random.Generator
-) -> tuple[np.ndarray, np.ndarray]:
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Of saddles that keep away from their axis, and of those that cross it."""
     arcs = graph.boundary.arcs
-    if not len(arcs.circle):
-        return np.empty((0, 3)), np.empty(0, dtype=bool)
-    row = random.integers(0, len(arcs.circle), count)
-    saddle = saddles_of(graph, probe, row)
+    singular = saddles_of(graph, probe, np.arange(len(arcs.circle))).waist > 0
+    return [points_of_saddles(graph, probe, some(rows, count, random), random) for rows in (~singular, singular)]
+
+
+def some(wanted: np.ndarray, count: int, random: np.random.Generator) -> np.ndarray:
+    """Random rows of those that are wanted; none where none are."""
+    rows = np.flatnonzero(wanted)
+    return random.choice(rows, count) if len(rows) else rows
+
+
+def points_of_saddles(
+    graph: BoundaryGraph, probe: float, row: np.ndarray, random: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
+    arcs, saddle, count = graph.boundary.arcs, saddles_of(graph, probe, row), len(row)
     angle = arcs.start[row] + random.random(count) * arcs.sweep[row]
     spoke = graph.boundary.circles.spoke(arcs.circle[row], angle) / saddle.radius[:, None]
     theta = saddle.low + random.random(count) * (saddle.high - saddle.low)
@@ -103,17 +115,30 @@ def saddle_points(
 
 def concave_points(
     graph: BoundaryGraph, probe: float, count: int, random: np.random.Generator
-) -> tuple[np.ndarray, np.ndarray]:
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Of probes that no other cuts, and of those that others cut."""
     probes = probes_of(graph, probe, np.arange(len(graph.vertex)))
-    if not len(probes.vertex):
-        return np.empty((0, 3)), np.empty(0, dtype=bool)
-    row = random.integers(0, len(probes.vertex), count)
-    weight = random.dirichlet(np.ones(3), count)
-    direction = unit(np.einsum("qk,qki->qi", weight, probes.corner[row]))
     cut = cut_triangles(probes, probe)
-    left = np.ones(count, dtype=bool)
+    is_cut = np.isin(np.arange(len(probes.vertex)), cut.probe)
+    row = np.concatenate([some(~is_cut, count, random), some(is_cut, count, random)])
+    weight = random.dirichlet(np.ones(3), len(row))
+    direction = unit(np.einsum("qk,qki->qi", weight, probes.corner[row]))
+    left = np.ones(len(row), dtype=bool)
     for k, vertex in enumerate(cut.probe.tolist()):
         mine = np.flatnonzero(row == vertex)
         caps = slice(cut.caps.start[k] + 3, cut.caps.start[k + 1])
         left[mine] = np.all(direction[mine] @ cut.caps.axis[caps].T <= cut.caps.cosine[caps], axis=1)
-    return probes.center[row] + probe * direction, left
+    points = probes.center[row] + probe * direction
+    return [(points[rows], left[rows]) for rows in (~is_cut[row], is_cut[row])]
+
+
+def wrong_points(
+    graph: BoundaryGraph, probe: float, count: int, random: np.random.Generator
+) -> dict[str, tuple[int, int]]:
+    """By kind: how many points of patches there are, and how many are not where they are said to be."""
+    found = {}
+    for kind, (points, left) in points_of_patches(graph, probe, count, random).items():
+        excess = distance_to_free_space(graph.boundary.spheres, points) - probe
+        beyond = -excess if kind == "convex" else excess  # what is covered is deep inside, what is cut off too far out
+        found[kind] = len(points), int(np.sum(np.where(left, np.abs(excess) > 1e-9, beyond > 1e-12)))
+    return found

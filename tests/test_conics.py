@@ -26,6 +26,7 @@ def sign_changes(form: Quadratic) -> np.ndarray:
 @example((1.0, 1e-11, 1.0, 0.0, 1.0, 0.0))  # the cubic's root at the end of its bracket
 @example((0.0, 0.5, 0.0, 1e-67, 0.0, 1e-09))  # a first harmonic whose square is no number
 @example((0.0, 1.0, 0.001953125, 3.2114338103709774e-189, 0.0, 0.0))
+@example((0.001953125, 1.0, 0.0, 0.0, 1.175494351e-38, 0.0))  # both terms nought, their product is rounding
 @settings(max_examples=400)
 def test_every_sign_change_is_a_root(columns: tuple[float, ...]) -> None:
     form = Quadratic(*(np.array([column]) for column in columns))

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from molviz.curves import PlaneArcs
@@ -22,7 +22,7 @@ def points_off(arcs: PlaneArcs, spheres: Spheres, seed: int, count: int = 300) -
     """Random page points not too near any arc."""
     low, high = (corner[:2] for corner in spheres.box())
     points = np.random.default_rng(seed).uniform(low, high, (count, 2))
-    t = arcs.start[:, None] + arcs.sweep[:, None] * np.linspace(0, 1, 200)
+    t = arcs.start[:, None] + arcs.sweep[:, None] * np.linspace(0, 1, 1000)  # at most CLEAR apart
     x, y = ((arcs.c[:, [k]] + arcs.u[:, [k]] * np.cos(t) + arcs.v[:, [k]] * np.sin(t)).ravel() for k in (0, 1))
     gap = np.min(np.hypot(points[:, [0]] - x, points[:, [1]] - y), axis=1)
     return points[gap > CLEAR]
@@ -41,6 +41,7 @@ def inside(arcs: PlaneArcs, boundary: Loops, points: np.ndarray) -> np.ndarray:
 
 
 @given(st.integers(0, 10**6), st.floats(0.3, 3.0), st.floats(0.2, 3.0), st.sampled_from([None, 30.0]))
+@example(834, 1.0, 0.25, None)  # a point between two samples of an arc, 0.001 from it
 @settings(max_examples=25)
 def test_a_skirt_is_seen_where_the_surface_lies_below_it(
     seed: int, reach: float, deeper: float, distance: float | None

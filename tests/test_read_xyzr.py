@@ -43,3 +43,11 @@ def test_plain_texts_are_read_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_coinciding_rows_are_those_met_before(rows: list[tuple[float, ...]]) -> None:
     expected = [k for k, row in enumerate(rows) if row in rows[:k]]
     assert coinciding_rows(np.array(rows, dtype=float).reshape(-1, 3)).tolist() == expected
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_number_beyond_doubles_is_refused_without_a_warning() -> None:
+    rows = [f"{k} 0 0 1" for k in range(20)]
+    rows[5] = "5 0 5.78626660773e324 1"
+    with pytest.raises(InputError, match=r"t\.xyzr:6: z is '5\.78626660773e324'; expected a finite number"):
+        read("t.xyzr", "\n".join(rows).encode(), "xyzr")

@@ -25,8 +25,8 @@ from molviz.write import columns
 SAMPLES = Path(__file__).parent.parent / "samples"
 MODULES = [(boundary, "BLOCK_ENTRIES", 1 << 9), (grid, "BLOCK_ROWS", 1 << 9), (culling, "BLOCK_ROWS", 1 << 9),
            (intervals, "BLOCK_ROWS", 1 << 7), (compose, "MANY", 1), (ink, "BLOCK_SAMPLES", 1 << 7),
-           (named_arcs, "MANY", 1), (junctions, "MANY", 1), (columns, "BLOCK", 1 << 6),
-           *((module, "BLOCK_ROWS", 1 << 7) for module in (bounds, horizon_runs, occlusion, solids, stick_occlusion)),
+           (bounds, "BLOCK_PAIRS", 1 << 7), (named_arcs, "MANY", 1), (junctions, "MANY", 1), (columns, "BLOCK", 1 << 6),
+           *((module, "BLOCK_ROWS", 1 << 7) for module in (horizon_runs, occlusion, solids, stick_occlusion)),
            ]  # fmt: skip
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints, Strings
+from molviz.arrays import Bools, Floats, Ints, Strings, among
 from molviz.errors import InputError
 from molviz.geometry.grid import intersecting_pairs
 from molviz.model.bonds import (
@@ -94,7 +94,7 @@ def _contacts(molecule: Molecule, radius: Floats) -> Contacts:
 def _chemical(molecule: Molecule, contacts: Contacts) -> Contacts:
     """Return the contacts less those that are no bonds by what the two atoms are."""
     hydrogen, water, metal = is_hydrogen(molecule), is_water(molecule), is_metal(molecule)
-    ion, donor = np.isin(molecule.element, _IONS), np.isin(molecule.element, _DONORS)
+    ion, donor = among(molecule.element, _IONS), among(molecule.element, _DONORS)
     first, second, _ = contacts
     held = (~ion[first] | donor[second]) & (~ion[second] | donor[first])
     wet = (water[first] | water[second]) & ~(metal[first] | metal[second])

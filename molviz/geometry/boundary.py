@@ -20,13 +20,15 @@ from molviz.geometry.caps import BINS, Caps, OpenCreases, open_creases
 from molviz.geometry.circles import CircleArcs, Circles, creases, radical_planes
 from molviz.geometry.grid import Neighbours, neighbours
 from molviz.geometry.intervals import TURN, Intervals, above, gaps
-from molviz.geometry.rows import blocks, expand, offsets
+from molviz.geometry.rows import blocks
 from molviz.geometry.tolerances import COINCIDE, TOUCH
 from molviz.model.spheres import Spheres
 from molviz.threads import in_threads
 from molviz.vectors import length
 
-BLOCK_ENTRIES = 1 << 17  # entries (sphere, cap, cap) at a time: their temporaries stay in cache
+BLOCK_ENTRIES = 1 << 20  # entries (sphere, cap, cap) at a time: their temporaries stay in cache
+PART_ENTRIES = 1 << 22  # of the creases of one thread at a time: fewer are too many steps
+BLOCK_PAIRS = 1 << 15  # entries (sphere, neighbour) at a time, likewise
 
 
 class Boundary(NamedTuple):
@@ -44,10 +46,21 @@ def union_boundary(spheres: Spheres, near: Neighbours | None = None) -> Boundary
     """Return the free arcs of all creases of n spheres, linear in n for a hard sphere model (Theorem 4.1)."""
     near = neighbours(spheres) if near is None else near
     crossing, inside = _crossing(spheres, near)
-    candidates = _candidates(spheres, crossing)
-    circles, _ = creases(spheres, candidates.first, candidates.second)
-    circles, arcs = _free_arcs(spheres, circles, candidates)
-    return Boundary(spheres, near, crossing, inside, circles, arcs)
+    parts = in_threads(lambda sphere: _free_arcs(spheres, _candidates(spheres, crossing, sphere)), _parts(crossing))
+    circles = Circles(*(np.concatenate(column) for column in zip(*(part[0] for part in parts), strict=True)))
+    arcs = CircleArcs(*(np.concatenate(column) for column in zip(*(part[1] for part in parts), strict=True)))
+    begin = np.cumsum([0] + [len(part.first) for part, _ in parts])
+    arcs.circle[:] += np.repeat(begin[:-1], [len(part.circle) for _, part in parts])
+    return Boundary(spheres, near, crossing, inside, *_in_order(circles, arcs))
+
+
+def _in_order(circles: Circles, arcs: CircleArcs) -> tuple[Circles, CircleArcs]:
+    """The circles in the order of their spheres, and their arcs numbered anew."""
+    order = np.lexsort((circles.second, circles.first))
+    rank = np.empty(len(order), dtype=np.int64)
+    rank[order] = np.arange(len(order))
+    arcs = arcs._replace(circle=rank[arcs.circle])
+    return circles.take(order), arcs.take(np.argsort(arcs.circle, kind="stable"))
 
 
 def free_spheres(boundary: Boundary) -> Bools:
@@ -58,31 +71,55 @@ def free_spheres(boundary: Boundary) -> Bools:
 def _crossing(spheres: Spheres, near: Neighbours) -> tuple[Neighbours, Bools]:
     """The neighbours whose spheres meet in a circle, among balls that lie in no other; and which balls do."""
     count = len(spheres.radius)
-    owner = np.repeat(np.arange(count), np.diff(near.start))
-    distance, own, other = _distances(spheres, owner, near.item)
-    slack = TOUCH * np.minimum(own, other)
-    larger = (other > own) | ((other == own) & (near.item < owner))
     inside: Bools = np.zeros(count, dtype=bool)
-    inside[owner[larger & (distance <= other - own + slack)]] = True
-    kept = (distance < own + other - slack) & ~inside[owner] & ~inside[near.item]
-    return Neighbours(offsets(owner[kept], count), near.item[kept]), inside
+    several = list(blocks(np.diff(near.start), BLOCK_PAIRS))
+    found = in_threads(lambda block: _meeting(spheres, near, block), several)
+    for buried, _ in found:
+        inside[buried] = True
+    meets = np.concatenate([meets for _, meets in found] or [inside])
+    if inside.any():
+        meets &= ~inside[near.item] & np.repeat(~inside, np.diff(near.start))
+    kept = np.cumsum(np.append(0, meets))[near.start]
+    return Neighbours(kept, near.item if len(meets) == kept[-1] else near.item[meets]), inside
+
+
+def _meeting(spheres: Spheres, near: Neighbours, block: slice) -> tuple[Ints, Bools]:
+    """Which of a range of balls lie in a neighbour, and which of their rows of ``near`` meet by more than a touch."""
+    begin = near.start[block.start : block.stop]
+    owner = np.repeat(np.arange(block.start, block.stop), np.diff(near.start[block.start : block.stop + 1]))
+    item = near.item[begin[0] : near.start[block.stop]]
+    distance, own, other = _distances(spheres, owner, item)
+    slack = TOUCH * np.minimum(own, other)
+    larger = (other > own) | ((other == own) & (item < owner))
+    return owner[larger & (distance <= other - own + slack)], distance < own + other - slack
 
 
 def _distances(spheres: Spheres, one: Ints, other: Ints) -> tuple[Floats, Floats, Floats]:
     """Distances of pairs of centres, and the radii of both."""
-    distance = length(spheres.center[other] - spheres.center[one])
-    return np.asarray(distance), spheres.radius[one], spheres.radius[other]
+    distance = length(spheres.center.take(other, axis=0) - spheres.center.take(one, axis=0))
+    return distance, spheres.radius.take(one), spheres.radius.take(other)
 
 
-def _candidates(spheres: Spheres, crossing: Neighbours) -> OpenCreases:
-    """The creases that may have a free part, of all spheres; crease numbers run through."""
+def _parts(crossing: Neighbours) -> Iterator[Ints]:
+    """Spheres with equally many neighbours side by side, so that little is padded; none at all are one part."""
+    count = np.diff(crossing.start)
+    order = np.argsort(count, kind="stable")
+    order = order[np.searchsorted(count[order], 1) :]
+    for part in blocks(count[order] ** 2, PART_ENTRIES):
+        yield order[part]
+    if len(order) == 0:
+        yield order
+
+
+def _candidates(spheres: Spheres, crossing: Neighbours, sphere: Ints) -> OpenCreases:
+    """The creases of the given spheres that may have a free part; crease numbers run through."""
     empty = np.empty(0, dtype=np.int64)
-    lists = in_threads(lambda sphere: _of_block(_caps(spheres, crossing, sphere)), _blocks(crossing))
-    parts = [part for block in lists for part in block]
-    parts.append(OpenCreases(empty, empty, empty.astype(np.uint64), empty, empty))
+    parts = [OpenCreases(empty, empty, empty.astype(np.uint64), empty, empty)]
+    for block in blocks(np.diff(crossing.start)[sphere] ** 2, BLOCK_ENTRIES):
+        parts += _of_block(_caps(spheres, crossing, sphere[block]))
     begin = np.cumsum([0] + [len(part.first) for part in parts])
     shifted = [part._replace(crease=part.crease + at) for part, at in zip(parts, begin, strict=False)]
-    return _in_order(OpenCreases(*(np.concatenate(column) for column in zip(*shifted, strict=True))))
+    return OpenCreases(*(np.concatenate(column) for column in zip(*shifted, strict=True)))
 
 
 def _of_block(caps: Caps) -> list[OpenCreases]:
@@ -92,40 +129,22 @@ def _of_block(caps: Caps) -> list[OpenCreases]:
     return [open_creases(caps, slice(begin, min(begin + step, width))) for begin in range(0, width, step)]
 
 
-def _in_order(creases: OpenCreases) -> OpenCreases:
-    order = np.lexsort((creases.second, creases.first))
-    rank = np.empty(len(order), dtype=np.int64)
-    rank[order] = np.arange(len(order))
-    first, second, covered = creases.first[order], creases.second[order], creases.covered[order]
-    return OpenCreases(first, second, covered, rank[creases.crease], creases.ball)
-
-
-def _blocks(crossing: Neighbours) -> Iterator[Ints]:
-    """Spheres with equally many neighbours side by side, so that little is padded."""
-    count = np.diff(crossing.start)
-    order = np.argsort(count, kind="stable")
-    order = order[np.searchsorted(count[order], 1) :]
-    for block in blocks(count[order] ** 2, BLOCK_ENTRIES):
-        yield order[block]
-
-
 def _caps(spheres: Spheres, crossing: Neighbours, sphere: Ints) -> Caps:
     """The caps of the given spheres; ``cos ω = t / ri``, the radical plane lying at t."""
-    row, entry = expand(crossing.start[sphere], crossing.start[sphere + 1])
-    place = entry - crossing.start[sphere][row]
-    direction, along = radical_planes(spheres, sphere[row], crossing.item[entry])
-    shape = len(sphere), int(place.max()) + 1
-    item, axis, cosine = np.full(shape, -1), np.zeros((*shape, 3)), np.full(shape, 2.0)
-    item[row, place] = crossing.item[entry]
-    axis[row, place] = direction
-    cosine[row, place] = along / spheres.radius[sphere[row]]
+    start, many = crossing.start[sphere][:, None], np.diff(crossing.start)[sphere][:, None]
+    place = np.arange(int(many.max()))
+    real = place < many
+    item = crossing.item.take(start + place * real)  # the first again for padding
+    direction, along = radical_planes(spheres, np.repeat(sphere, len(place)), item.ravel())
+    cosine = np.where(real, along.reshape(item.shape) / spheres.radius[sphere][:, None], 2.0)
     largest = np.argsort(cosine, axis=1)
-    rows = np.arange(len(sphere))[:, None]
-    return Caps(sphere, item[rows, largest], axis[rows, largest], cosine[rows, largest])
+    largest += np.arange(len(sphere))[:, None] * len(place)
+    return Caps(sphere, np.where(real, item, -1).take(largest), direction.take(largest, axis=0), cosine.take(largest))
 
 
-def _free_arcs(spheres: Spheres, circles: Circles, candidates: OpenCreases) -> tuple[Circles, CircleArcs]:
-    """The gaps that the balls leave of each circle, and the circles that have any."""
+def _free_arcs(spheres: Spheres, candidates: OpenCreases) -> tuple[Circles, CircleArcs]:
+    """The gaps that the balls leave of each crease, and the circles that have any."""
+    circles, _ = creases(spheres, candidates.first, candidates.second)
     middle, half = _crease_inside_ball(spheres, circles, candidates.crease, candidates.ball)
     real = half > 0
     known = _runs(candidates.covered)
@@ -172,12 +191,12 @@ def _half_space(
 ) -> tuple[Floats, Floats, Floats]:
     """On sphere i, ``|p − ck|² < rk²`` is linear: ``2 (p − ci) · (ck − ci) > |ck − ci|² + ri² − rk²``."""
     own = circles.first[circle]
-    toward = spheres.center[ball] - spheres.center[own]
+    toward = spheres.center.take(ball, axis=0) - spheres.center.take(own, axis=0)
     power = np.sum(toward**2, axis=1) + (spheres.radius[own] - spheres.radius[ball]) * (
         spheres.radius[own] + spheres.radius[ball]
     )
-    rest = power / 2 - np.sum(offset[circle] * toward, axis=1)
-    return np.sum(circles.a[circle] * toward, axis=1), np.sum(circles.b[circle] * toward, axis=1), rest
+    a, b, along = (np.sum(vector.take(circle, axis=0) * toward, axis=1) for vector in (circles.a, circles.b, offset))
+    return a, b, power / 2 - along
 
 
 def _crease_inside_ball(spheres: Spheres, circles: Circles, circle: Ints, ball: Ints) -> tuple[Floats, Floats]:

@@ -11,13 +11,24 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints, Masks, Singles
+from molviz.arrays import Floats, Ints, Masks, Singles
 from molviz.geometry.circles import perpendicular
 from molviz.geometry.tolerances import SINGLE
 
 BINS = 64  # parts of a circle, one bit each
 BIN_MARGIN = np.float32(0.01)  # of a bin: 1e-3 radians, far above the rounding of angles in single precision
 ALL = np.uint64(2**BINS - 1)
+LARGEST = 16  # caps of a sphere that are tried first: they cover four rims in five
+
+
+def _runs_of_bits() -> Masks:
+    """The masks of c bits from bit b on, cyclically, at c · 64 + b; a shift by all 64 bits gives zero."""
+    count, begin = np.divmod(np.arange((BINS + 1) * BINS, dtype=np.uint64), np.uint64(BINS))
+    ones = (np.uint64(1) << count) - np.uint64(1)
+    return (ones << begin) | (ones >> (np.uint64(BINS) - begin))
+
+
+RUNS = _runs_of_bits()
 
 
 class Caps(NamedTuple):
@@ -41,46 +52,46 @@ class OpenCreases(NamedTuple):
 
 def open_creases(caps: Caps, rims: slice) -> OpenCreases:
     """Return what may be free of the given rims of ``caps``, of those that belong to balls of a higher row."""
-    later = (caps.item[:, rims] > caps.sphere[:, None]) & ~_inside_larger(caps, rims)
-    a, b, c = _in_plane(caps, rims, later)
-    covered = np.bitwise_or.reduce(_bins_inside(a, b, c), axis=1)
-    free = np.flatnonzero(covered != ALL)
-    outside = _bins_inside(-a[free], -b[free], -c[free])
-    crease, k = np.nonzero((outside | covered[free, None]) != ALL)
-    sphere, p = (index[free] for index in np.nonzero(later))
-    ball = caps.item[sphere[crease], k]
-    return OpenCreases(caps.sphere[sphere], caps.item[:, rims][sphere, p], covered[free], crease, ball)
+    sphere, rim = np.nonzero(caps.item[:, rims] > caps.sphere[:, None])
+    rim += rims.start
+    width = caps.item.shape[1]
+    for number in sorted({min(LARGEST, width), width}):
+        a, b, c = _in_plane(caps, sphere, rim, number)
+        covered = np.bitwise_or.reduce(_bins_inside(a, b, c), axis=0)
+        free = np.flatnonzero(covered != ALL)
+        sphere, rim = sphere[free], rim[free]
+    outside = _bins_inside(-a[:, free], -b[:, free], -c[:, free])
+    crease, k = np.nonzero(((outside | covered[free]) != ALL).T)
+    return OpenCreases(caps.sphere[sphere], caps.item[sphere, rim], covered[free], crease, caps.item[sphere[crease], k])
 
 
-def _inside_larger(caps: Caps, rims: slice) -> Bools:
-    """Whether each of the given rims lies in a larger cap of its sphere, (m, r).
-
-    With ω the angles of the caps and δ that between their axes: ``δ < ω_k − ω_p``, or
-    ``cos δ − cos ω_p cos ω_k − sin ω_p sin ω_k > 0``, one product of vectors of five.
-    """
-    sine = np.sqrt(np.maximum(1.0 - caps.cosine**2, 0.0))
-    turn = np.stack([caps.cosine, sine], axis=2)
-    one = np.concatenate([caps.axis[:, rims], -turn[:, rims]], axis=2, dtype=np.float32)
-    other = np.concatenate([caps.axis, turn], axis=2, dtype=np.float32)
-    depth: Singles = one @ other.transpose(0, 2, 1)
-    depth *= np.tri(depth.shape[1], depth.shape[2], rims.start - 1, dtype=np.float32)
-    return np.asarray(depth.max(axis=2) > SINGLE)
-
-
-def _in_plane(caps: Caps, rims: slice, wanted: Bools) -> tuple[Singles, Singles, Singles]:
-    """On the rim p, as circle ``p(θ)`` of the crease: ball k covers ``a cos θ + b sin θ > c``; three arrays (w, p).
+def _in_plane(caps: Caps, sphere: Ints, rim: Ints, number: int) -> tuple[Singles, Singles, Singles]:
+    """On w rims, as circles ``p(θ)`` of the creases: cap k covers ``a cos θ + b sin θ > c``; three arrays (number, w).
 
     ``p(θ) = cos ω_p axis_p + sin ω_p (e cos θ + f sin θ)``, which enters cap k where ``p(θ) · axis_k > cos ω_k``.
     """
-    axis, cosine = caps.axis[:, rims], caps.cosine[:, rims, None]
+    axis, cosine = caps.axis[sphere, rim], caps.cosine[sphere, rim][:, None]
     sine = np.sqrt(np.maximum(1.0 - cosine**2, 0.0))
-    e, f = (vector.reshape(axis.shape) * sine for vector in perpendicular(axis.reshape(-1, 3)))
-    against = caps.axis.astype(np.float32).transpose(0, 2, 1)
-    a, b, along = ((vector.astype(np.float32) @ against)[wanted] for vector in (e, f, axis * cosine))
-    row, own = np.nonzero(wanted)
-    c = caps.cosine.astype(np.float32)[row] - along
-    c[np.arange(len(row)), own + rims.start] = 2.0  # a ball does not cover its own rim
+    e, f = perpendicular(axis)
+    against = _singles(caps.axis[:, :number])[:, :, sphere]
+    a, b, along = (_products(against, _singles(vector)) for vector in (e * sine, f * sine, axis * cosine))
+    c = _singles(caps.cosine[:, :number])[:, sphere] - along
+    own = np.flatnonzero(rim < number)
+    c[rim[own], own] = 2.0  # a ball does not cover its own rim
     return a, b, c
+
+
+def _singles(columns: Floats) -> Singles:
+    """The transposed array in single precision: the longest axis last, along which numpy is fast."""
+    return np.ascontiguousarray(columns.T, dtype=np.float32)
+
+
+def _products(one: Singles, other: Singles) -> Singles:
+    """The scalar products (number, w) of vectors (3, number, w) with vectors (3, w)."""
+    total: Singles = one[0] * other[0]
+    total += one[1] * other[1]
+    total += one[2] * other[2]
+    return total
 
 
 def _bins_inside(a: Singles, b: Singles, c: Singles) -> Masks:
@@ -90,12 +101,6 @@ def _bins_inside(a: Singles, b: Singles, c: Singles) -> Masks:
     half = np.arccos(np.clip(level, -1.0, 1.0)) * np.float32(BINS / (2 * np.pi)) - BIN_MARGIN
     half[level <= -1.0] = BINS
     middle = np.arctan2(b, a) * np.float32(BINS / (2 * np.pi))
-    begin = np.ceil(middle - half).astype(np.int64)
-    count = np.clip(np.floor(middle + half).astype(np.int64) - begin, 0, BINS).astype(np.uint64)
-    return _run_of_bits(begin.astype(np.uint64) % np.uint64(BINS), count)
-
-
-def _run_of_bits(begin: Masks, count: Masks) -> Masks:
-    """Bits begin … begin + count − 1, cyclically; a shift by all 64 bits gives zero."""
-    ones = (np.uint64(1) << count) - np.uint64(1)
-    return (ones << begin) | (ones >> (np.uint64(BINS) - begin))
+    begin = np.ceil(middle - half).astype(np.int32)
+    count = np.clip(np.floor(middle + half).astype(np.int32) - begin, 0, BINS)
+    return np.asarray(RUNS.take(count * BINS + (begin & (BINS - 1))))

@@ -28,7 +28,8 @@ class Circles(NamedTuple):
 
     def take(self, rows: Ints) -> "Circles":
         """Return the given circles, in that order."""
-        return Circles(self.first[rows], self.second[rows], self.center[rows], self.a[rows], self.b[rows])
+        center, a, b = (vector.take(rows, axis=0) for vector in (self.center, self.a, self.b))
+        return Circles(self.first[rows], self.second[rows], center, a, b)
 
 
 class CircleArcs(NamedTuple):
@@ -71,9 +72,9 @@ def circles_about(first: Ints, second: Ints, center: Floats, axis: Floats, radiu
 
 def radical_planes(spheres: Spheres, first: Ints, second: Ints) -> tuple[Floats, Floats]:
     """Return the axis (m, 3) from ci to cj and ``t = (d² + ri² − rj²) / 2d``, how far along it the spheres meet."""
-    between = spheres.center[second] - spheres.center[first]
+    between = spheres.center.take(second, axis=0) - spheres.center.take(first, axis=0)
     distance = length(between)
-    own, other = spheres.radius[first], spheres.radius[second]
+    own, other = spheres.radius.take(first), spheres.radius.take(second)
     return between / distance[:, None], (distance + (own - other) * (own + other) / distance) / 2
 
 
@@ -82,10 +83,10 @@ def creases(spheres: Spheres, first: Ints, second: Ints) -> tuple[Circles, Ints]
 
     Their radius is ``√(ri² − t²)``. Pairs that are nested or concentric have no circle.
     """
-    distance = length(spheres.center[second] - spheres.center[first])
+    distance = length(spheres.center.take(second, axis=0) - spheres.center.take(first, axis=0))
     own, other = spheres.radius[first], spheres.radius[second]
     rows = np.flatnonzero((distance > np.abs(own - other)) & (distance < own + other))
     axis, along = radical_planes(spheres, first[rows], second[rows])
     radius = np.sqrt(np.maximum((own[rows] - along) * (own[rows] + along), 0.0))
-    center = spheres.center[first[rows]] + axis * along[:, None]
+    center = spheres.center.take(first[rows], axis=0) + axis * along[:, None]
     return circles_about(first[rows], second[rows], center, axis, radius), rows

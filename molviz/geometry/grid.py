@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints
-from molviz.geometry.rows import blocks, expand, offsets
+from molviz.arrays import Floats, Ints, distinct
+from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
 from molviz.threads import in_threads
 
@@ -39,7 +39,7 @@ def grid_index(spheres: Spheres) -> GridIndex:
     """Return the index of n ≥ 1 spheres, in O(n log n) time and O(n) space (Theorem 3.1)."""
     side = 2.0 * float(spheres.radius.max())
     cell = np.floor(spheres.center / side)
-    slabs = tuple(np.unique(cell[:, axis]) for axis in range(3))
+    slabs = tuple(distinct(cell[:, axis]) for axis in range(3))
     number = tuple(map(collapsed, slabs))
     x, y, z = (number[axis][np.searchsorted(slabs[axis], cell[:, axis])] for axis in range(3))
     key = cube_key(x, y, z, number)
@@ -60,14 +60,7 @@ def cube_key(x: Ints, y: Ints, z: Ints, number: tuple[Ints, ...]) -> Ints:
 
 def intersecting_pairs(spheres: Spheres) -> tuple[Ints, Ints]:
     """Return all pairs i < j with |cj − ci| < ri + rj, each once, ordered by i then j."""
-    if len(spheres.radius) < 2:
-        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
-    index = grid_index(spheres)
-    columns = (*np.ascontiguousarray(index.spheres.center.T), index.spheres.radius)
-    candidates = list(_candidate_blocks(index))
-    few = len(candidates) <= 1 + len(LATER_COLUMNS)  # a block for each range of columns: no work for threads
-    meetings = (map if few else in_threads)(lambda block: _meeting(columns, *block), candidates)
-    one, other = (index.row[np.concatenate(column)] for column in zip(*meetings, strict=True))
+    one, other = meeting_pairs(spheres)
     first, second = np.minimum(one, other), np.maximum(one, other)
     order = np.argsort(first * len(spheres.radius) + second)
     return first[order], second[order]
@@ -75,11 +68,29 @@ def intersecting_pairs(spheres: Spheres) -> tuple[Ints, Ints]:
 
 def neighbours(spheres: Spheres) -> Neighbours:
     """Return for every sphere the spheres it intersects, in time linear in n for a hard sphere model."""
-    first, second = intersecting_pairs(spheres)
-    count = len(spheres.radius)
-    owner, item = np.concatenate([first, second]), np.concatenate([second, first])
-    order = np.argsort(owner * count + item)
-    return Neighbours(offsets(owner, count), item[order])
+    return pairs_by_owner(*meeting_pairs(spheres), len(spheres.radius))
+
+
+def pairs_by_owner(one: Ints, other: Ints, count: int) -> Neighbours:
+    """Return the lists of ``count`` spheres that pairs (m,) of them, each once, make for both."""
+    key = np.concatenate([one * count + other, other * count + one])
+    key.sort()  # owner and item as one number: sorting numbers is many times faster than finding their order
+    many = np.bincount(one, minlength=count) + np.bincount(other, minlength=count)
+    key -= np.repeat(np.arange(count) * count, many)
+    return Neighbours(np.concatenate([[0], np.cumsum(many)]), key)
+
+
+def meeting_pairs(spheres: Spheres) -> tuple[Ints, Ints]:
+    """Return all pairs of n spheres with |cj − ci| < ri + rj, each once, in the order in which the grid finds them."""
+    if len(spheres.radius) < 2:
+        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
+    index = grid_index(spheres)
+    columns = (*np.ascontiguousarray(index.spheres.center.T), index.spheres.radius)
+    candidates = list(_candidate_blocks(index))
+    few = len(candidates) <= 1 + len(LATER_COLUMNS)  # a block for each range of columns: no work for threads
+    pairs = (map if few else in_threads)(lambda block: _meeting(columns, *block), candidates)
+    one, other = (index.row[np.concatenate(column)] for column in zip(*pairs, strict=True))
+    return one, other
 
 
 def _candidate_blocks(index: GridIndex) -> Iterator[tuple[int, Ints, Ints]]:

@@ -14,7 +14,7 @@ from molviz.threads import in_threads
 
 TURN = 2.0 * np.pi
 BLOCK_ROWS = 1 << 16  # intervals at a time: their columns stay in cache
-MOST_BLOCKS = 1 << 10
+PARTS = 1 << 16  # that sixteen bits can number
 
 
 class Intervals(NamedTuple):
@@ -55,31 +55,32 @@ def above(a: Floats, b: Floats, c: Floats) -> tuple[Floats, Floats]:
 def gaps(hidden: Intervals, count: int) -> Gaps:
     """Return the parts of circles 0 … count − 1 that no interval covers (closed intervals, so gaps are open).
 
-    In blocks of consecutive circles, shared by threads.
+    Many circles are taken in parts, so that sorting stays in cache.
     """
-    number = min(len(hidden.circle) // BLOCK_ROWS + 1, MOST_BLOCKS)
-    if number == 1:
+    parts = min(len(hidden.circle) // BLOCK_ROWS + 1, PARTS)
+    if parts == 1:
         return _gaps(hidden, count)
-    first = np.arange(number + 1) * count // number
-    block = (np.searchsorted(first, hidden.circle, side="right") - 1).astype(np.uint16)  # which are sorted fast
-    order = np.argsort(block, kind="stable")
-    begin = np.concatenate([[0], np.cumsum(np.bincount(block, minlength=number))])
+    many = -(-count // parts)  # circles a part
+    part = (hidden.circle // many).astype(np.uint16)
+    order = np.argsort(part, kind="stable")  # of sixteen bits: in one pass
+    begin = np.searchsorted(part[order], np.arange(parts + 1))
 
-    def gaps_in(part: int) -> Gaps:
-        rows = np.append(order[begin[part] : begin[part + 1]], -1)
-        circle, start, sweep = (column[rows[:-1]] for column in hidden)
-        found = _gaps(Intervals(circle - first[part], start, sweep), int(first[part + 1] - first[part]))
-        return Gaps(found.circle + first[part], found.start, found.sweep, rows[found.before], rows[found.after])
+    def of_part(number: int) -> Gaps:
+        rows, first = order[begin[number] : begin[number + 1]], number * many
+        some = Intervals(hidden.circle[rows] - first, hidden.start[rows], hidden.sweep[rows])
+        free = _gaps(some, max(min(many, count - first), 0))
+        rows = np.append(rows, -1)  # row −1 stays −1
+        return free._replace(circle=free.circle + first, before=rows[free.before], after=rows[free.after])
 
-    found = in_threads(gaps_in, range(number))
+    found = in_threads(of_part, range(parts))
     return Gaps(*(np.concatenate(column) for column in zip(*found, strict=True)))
 
 
 def _gaps(hidden: Intervals, count: int) -> Gaps:
-    """One sort by start and a running maximum of ends.
+    """The gaps of some circles: one sort by start and a running maximum of ends.
 
-    Intervals that wrap through θ = 0 enter twice, the second time a turn earlier; the maximum runs over ranks instead
-    of angles, so that circles need no offset and no precision is lost.
+    Intervals that wrap through θ = 0 enter twice, the second time a turn earlier; the maximum runs over ranks, not
+    angles, so that circles need no offset and no precision is lost.
     """
     start = np.mod(hidden.start, TURN)
     start[(start >= TURN) | (hidden.sweep >= TURN)] = 0.0  # mod rounds a tiny negative angle up; and no seam in a whole

@@ -11,16 +11,21 @@ sphere its own pole and needs J1 and J2 only: ``V = ⅓ Σ (r_i A_i + c_i · N_i
 two normals at a crease and ν the direction on sphere i into the cap, ``∂A/∂c_i = −Σ ∫ (n tan(β / 2) + ν) dl``.
 """
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.boundary import Boundary, free_spheres, union_boundary
+from molviz.geometry.boundary import BLOCK_PAIRS, Boundary, free_spheres, union_boundary
 from molviz.geometry.rims import Rims, opposite_poles, rims_of, totals, twice_j1, unit_flux
-from molviz.geometry.rows import expand
+from molviz.geometry.rows import blocks, expand
 from molviz.model.spheres import Spheres
-from molviz.vectors import dot
+from molviz.threads import in_threads
+from molviz.vectors import dot, length
+
+SLAB_BALLS = 1 << 18  # balls that are measured at a time, besides those that they can meet
+ROOM = 1.001  # of the distance at which two balls can meet, for rounding
 
 
 class Measure(NamedTuple):
@@ -35,19 +40,50 @@ class Measure(NamedTuple):
         return f"<Measure of {len(self.area)} balls: area {self.area.sum():.3f} Å², volume {self.volume:.3f} Å³>"
 
 
-def measure_spheres(spheres: Spheres, boundary: Boundary | None = None) -> Measure:
+def measure_spheres(spheres: Spheres) -> Measure:
     """Return the exact area and volume of the union of n balls (Džurina & Plavka 2008); see above.
 
     Equal, nested, tangent and coincident spheres are allowed; ``boundary`` says how they are decided. Spheres of
-    which no arc is free are free where nothing touches them, and buried otherwise.
+    which no arc is free are free where nothing touches them, and buried otherwise. Many balls are measured slab by
+    slab, each together with all that its own can meet, which changes no digit.
     """
-    boundary = union_boundary(spheres) if boundary is None else boundary
-    sides = rims_of(boundary)
+    count = len(spheres.radius)
+    area, flux, gradient = np.zeros(count), np.zeros((count, 3)), np.zeros((count, 3))
+    for rows, own in _slabs(spheres):
+        found = _of_boundary(union_boundary(spheres.take(rows)))
+        for total, part in zip((area, flux, gradient), found, strict=True):
+            total[rows[own]] = part[own]
+    return Measure(area, _volume(spheres, area, flux), gradient, flux)
+
+
+def _slabs(spheres: Spheres) -> Iterator[tuple[Ints, Bools]]:
+    """Rows of balls, ascending, and which of them are a slab's own: no others meet these. Few balls are one slab."""
+    count, side = len(spheres.radius), 2 * float(spheres.radius.max(initial=0.0))
+    if count <= SLAB_BALLS:
+        yield np.arange(count), np.ones(count, dtype=bool)
+        return
+    low, high = spheres.box()
+    along = spheres.center[:, int(np.argmax(high - low))]
+    order = np.argsort(along)
+    place = along[order]
+    for begin in range(0, count, SLAB_BALLS):
+        end = min(begin + SLAB_BALLS, count)
+        first = np.searchsorted(place, place[begin] - ROOM * side)
+        rows = order[first : np.searchsorted(place, place[end - 1] + ROOM * side, side="right")]
+        own: Bools = np.zeros(len(rows), dtype=bool)
+        own[begin - first : end - first] = True
+        ascending = np.argsort(rows)
+        yield rows[ascending], own[ascending]
+
+
+def _of_boundary(boundary: Boundary) -> tuple[Floats, Floats, Floats]:
+    """Area (n,) and flux (n, 3) of each ball, and the gradient (n, 3) of the whole area by its centre."""
+    spheres, sides = boundary.spheres, rims_of(boundary)
     order = np.argsort(sides.sphere, kind="stable")
     rims, fold = sides.take(order), np.repeat(_fold(boundary), 2)[order]
     area = spheres.radius**2 * _unit_area(boundary, rims)
     flux = spheres.radius[:, None] ** 2 * totals(rims.sphere, unit_flux(rims), len(area))
-    return Measure(area, _volume(spheres, area, flux), _area_gradient(spheres, rims, fold), flux)
+    return area, flux, _area_gradient(spheres, rims, fold)
 
 
 def _fold(boundary: Boundary) -> Floats:
@@ -72,11 +108,22 @@ def _unit_area(boundary: Boundary, rims: Rims) -> Floats:
 
 def _free(boundary: Boundary, sphere: Ints, direction: Floats) -> Bools:
     """Whether the point of each given sphere in the given direction lies outside all other balls."""
-    spheres, crossing = boundary.spheres, boundary.crossing
-    point = spheres.center[sphere] + spheres.radius[sphere][:, None] * direction
-    row, entry = expand(crossing.start[sphere], crossing.start[sphere + 1])
-    ball = crossing.item[entry]
-    covered = np.sum((point[row] - spheres.center[ball]) ** 2, axis=1) < spheres.radius[ball] ** 2
+    begin, end = boundary.crossing.start[sphere], boundary.crossing.start[sphere + 1]
+
+    def free(block: slice) -> Bools:
+        return _outside(boundary, sphere[block], direction[block], begin[block], end[block])
+
+    return np.concatenate([np.empty(0, dtype=bool), *in_threads(free, blocks(end - begin, BLOCK_PAIRS))])
+
+
+def _outside(boundary: Boundary, sphere: Ints, direction: Floats, begin: Ints, end: Ints) -> Bools:
+    """The same of some spheres, whose neighbours have the rows ``begin`` to ``end``."""
+    spheres = boundary.spheres
+    point = spheres.center.take(sphere, axis=0) + spheres.radius[sphere][:, None] * direction
+    row, entry = expand(begin, end)
+    ball = boundary.crossing.item.take(entry)
+    distance = length(point.take(row, axis=0) - spheres.center.take(ball, axis=0))
+    covered = distance < spheres.radius.take(ball)
     return np.asarray(np.bincount(row[covered], minlength=len(sphere)) == 0)
 
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints, Strings
+from molviz.arrays import Bools, Floats, Ints, Strings, among
 from molviz.model.molecule import Molecule
 from molviz.model.residues import AMINO_ACIDS, NUCLEOTIDES, WATERS
 
@@ -57,7 +57,7 @@ def entities_of(molecule: Molecule) -> Entities:
     Chains are copies of one entity where at least 80 % of their residues agree: see ``chain_entities``.
     """
     residues = _residues(molecule)
-    water = np.isin(residues.name, list(WATERS))
+    water = among(residues.name, WATERS)
     in_polymer = _in_polymer(molecule, residues, water)
     ion = (residues.size == 1) & (residues.name != "")
     kind = np.select([in_polymer, water, ion], [POLYMER, WATER, ION], LIGAND)
@@ -73,7 +73,7 @@ def entities_of(molecule: Molecule) -> Entities:
 
 def is_metal(molecule: Molecule) -> Bools:
     """Return which atoms (n,) are metals; half-metals and unknown elements are none."""
-    return ~np.isin(molecule.element, _NONMETALS.split())
+    return ~among(molecule.element, _NONMETALS.split())
 
 
 def _residues(molecule: Molecule) -> _Residues:
@@ -99,7 +99,7 @@ def _numbered(names: Strings) -> tuple[Strings, Ints]:
 
 def _in_polymer(molecule: Molecule, residues: _Residues, water: Bools) -> Bools:
     """Return which residues (r,) are polymeric, spreading from the standard ones over bonds to their neighbours."""
-    in_polymer = np.isin(residues.name, list(AMINO_ACIDS | NUCLEOTIDES))
+    in_polymer = among(residues.name, AMINO_ACIDS | NUCLEOTIDES)
     has_alpha = np.isfinite(_places(molecule, residues, "CA")[:, 0])
     in_polymer &= (residues.name != _UNNAMED) | has_alpha
     other = ~in_polymer & ~water & (residues.size > 1) & (residues.name != "")
@@ -119,7 +119,7 @@ def _strayed(chain: Strings, in_polymer: Bools) -> Bools:
     alone = in_polymer.copy()
     alone[1:] &= ~pairs
     alone[:-1] &= ~pairs
-    return alone & np.isin(chain, chain[in_polymer & ~alone])
+    return alone & among(chain, set(chain[in_polymer & ~alone].tolist()))
 
 
 def _bonded(molecule: Molecule, residues: _Residues, of: Bools, step: int, names: tuple[str, ...]) -> Bools:
@@ -162,7 +162,7 @@ def chain_entities(name: Strings, chain: Ints, count: int) -> Ints:
     code = np.unique(name, return_inverse=True)[1]
     order = np.argsort(chain, kind="stable")
     code, chain = code[order], chain[order]
-    nucleic = 2 * np.bincount(chain, np.isin(name[order], list(NUCLEOTIDES)), count) > np.bincount(chain, None, count)
+    nucleic = 2 * np.bincount(chain, among(name[order], NUCLEOTIDES), count) > np.bincount(chain, None, count)
     sequences = np.split(code, np.flatnonzero(np.diff(chain)) + 1) if count else []
     first: dict[bytes, int] = {}
     distinct = np.array([first.setdefault(sequence.tobytes(), len(first)) for sequence in sequences], dtype=np.int64)

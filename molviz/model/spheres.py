@@ -20,7 +20,7 @@ class Spheres(NamedTuple):
 
     def take(self, rows: Ints) -> "Spheres":
         """Return the given spheres, in that order."""
-        return Spheres(self.center[rows], self.radius[rows])
+        return Spheres(self.center.take(rows, axis=0), self.radius[rows])
 
     def enlarged(self, scale: float, probe: float) -> "Spheres":
         """Return the spheres with ``scale`` times their radii plus ``probe`` ångström."""

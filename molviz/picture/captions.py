@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints
+from molviz.arrays import Bools, Floats, Ints, among
 from molviz.model.entities import ION, LIGAND, WATER
 from molviz.model.molecule import Molecule
 from molviz.picture.coloring import CARBON_TONE, CONTINUOUS
@@ -29,7 +29,7 @@ def legend_of(subject: Subject, options: DrawOptions, fill: Ints) -> Ramp | Swat
         painted |= one.atoms
     names = _names(subject, scheme)
     wanted = ~painted & (names != "")
-    entries = _entries(names, wanted, np.isin(subject.molecule.element, CARBON_TONE), fill)
+    entries = _entries(names, wanted, among(subject.molecule.element, CARBON_TONE), fill)
     return Swatches([*entries, *((one.name, (one.color,)) for one in subject.painted)], _TITLES.get(scheme, ""))
 
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints, Strings
+from molviz.arrays import Bools, Floats, Ints, Strings, among
 from molviz.model.entities import WATER, Entities, is_metal
 from molviz.model.molecule import Molecule
 from molviz.picture.oklab import colors_of, mix
@@ -96,7 +96,7 @@ def entity_colors(molecule: Molecule, entities: Entities, palette: Palette, tint
     other, water, outside = len(palette.entity), entities.kind == WATER, entities.polymer < 0
     row = np.where(outside, other, entities.entity % other)
     tint_of_atom = np.where(outside, 0, np.append(tint, 0)[entities.polymer])
-    hetero = np.where(np.isin(molecule.element, CARBON_TONE), 0, 1)
+    hetero = np.where(among(molecule.element, CARBON_TONE), 0, 1)
     fills = np.array([tinted(one, palette.tint) for one in tones])
     fill = fills[row, tint_of_atom, hetero]
     fill[outside & is_metal(molecule)] = palette.metal

@@ -5,7 +5,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints
+from molviz.arrays import Bools, Floats, Ints, distinct
 from molviz.curves import Paths, PlaneArcs
 from molviz.geometry.rows import offsets
 from molviz.model.molecule import Molecule
@@ -312,7 +312,7 @@ class MapComposer:
     def without_crumbs(self, rows: Ints) -> Ints:
         """Return the creases that are no crumbs."""
         chains = self.chains(rows)
-        return np.unique(chains.take(np.flatnonzero(~self.crumbs(chains))).half_edge >> 1)
+        return distinct(chains.take(np.flatnonzero(~self.crumbs(chains))).half_edge >> 1)
 
     def lines_by_ground(self, rows: Ints) -> tuple[Paths, list[Color]]:
         """Return the same as one shape for each colour below, and these: means of the fills on both sides."""

@@ -225,7 +225,7 @@ def _last_vertices(width: Floats, runs: HorizonRuns, end: int) -> tuple[Ints, Fl
     none.
     """
     vertices, last = runs.vertices, runs.last()
-    is_end = np.zeros(len(vertices.run), dtype=bool)
+    is_end: Bools = np.zeros(len(vertices.run), dtype=bool)
     is_end[runs.ends] = True
     inner = np.flatnonzero(~is_end)
     run, place = vertices.run[inner], vertices.place[inner]

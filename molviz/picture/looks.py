@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints, Strings
+from molviz.arrays import Bools, Floats, Ints, Strings, among
 from molviz.model.entities import Entities
 from molviz.model.molecule import Molecule
 from molviz.picture.coloring import CARBON_TONE
@@ -83,5 +83,5 @@ def tone_names(scheme: str, molecule: Molecule) -> Strings:
         return molecule.residue_name
     if scheme != "entity":
         return np.full(len(molecule), "")
-    carbon: Bools = np.isin(molecule.element, CARBON_TONE)
+    carbon: Bools = among(molecule.element, CARBON_TONE)
     return np.where(carbon, "carbon", "hetero")

@@ -9,7 +9,7 @@ from pathlib import PurePath
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints
+from molviz.arrays import Floats, Ints, distinct
 from molviz.errors import InputError
 from molviz.geometry.measure import measure_spheres
 from molviz.geometry.solids import BallsAndSticks
@@ -98,7 +98,7 @@ class Drawing:
         return self._solids.notes + tuple(f"{self._loaded.source}: {note}" for note in told)
 
     def _shared_colors(self) -> Iterator[str]:
-        chains = len(np.unique(self._loaded.molecule.chain))
+        chains = len(distinct(self._loaded.molecule.chain))
         if self._options.color_by == "chain" and self._options.palette.repeats(chains):
             yield f"{chains} chains share {len(self._options.palette.chain)} colours; expected a palette of more"
 
@@ -299,7 +299,7 @@ def _seen_from(
         if check:
             check_map(seen, view)
         faces = np.append(seen.owner(), BACKGROUND)[seen.loops.face[~slivers(seen)]]
-        visible, arcs = int(np.sum(np.unique(faces) != BACKGROUND)), len(seen.left)
+        visible, arcs = int(np.sum(distinct(faces) != BACKGROUND)), len(seen.left)
     low, high = extent(solids.balls, view)
     subject = replace(subject, atom=atom, low=low, high=high)
     return Drawing(loaded.read, len(loaded.molecule), visible, arcs, loaded, options, view, seen, solids, subject)

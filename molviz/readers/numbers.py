@@ -74,7 +74,8 @@ def is_number(text: bytes) -> bool:
 
 def _converted(texts: "np.ndarray[Any, np.dtype[np.bytes_]]") -> Floats | None:
     try:
-        values = texts.astype(np.float64)
+        with np.errstate(over="ignore"):  # 1e324 is infinite
+            values = texts.astype(np.float64)
     except ValueError:
         return None
     return values if np.isfinite(values).all() else None

@@ -8,13 +8,14 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.grid import Neighbours, intersecting_pairs
-from molviz.geometry.rows import blocks, offsets
+from molviz.geometry.grid import Neighbours, meeting_pairs, pairs_by_owner
+from molviz.geometry.rows import offsets
 from molviz.model.spheres import Spheres
 from molviz.threads import in_threads
 from molviz.vectors import cross, dot
-from molviz.visibility.occlusion import BLOCK_ROWS, Discs
+from molviz.visibility.occlusion import Discs
 
+BLOCK_PAIRS = 1 << 15  # of stripes at a time: their columns stay in cache
 ROOM = 1.0 + 1e-6  # of the radii of what just touches, for rounding
 
 
@@ -34,8 +35,9 @@ class Bounds(NamedTuple):
 
     def meet_discs(self, rows: Ints, center: Floats, radius: Floats) -> Bools:
         """Return whether stripes (p,) meet discs (p, 2), (p,)."""
+        begin, end = self.begin.take(rows, axis=0), self.end.take(rows, axis=0)
         reach = ROOM * (self.radius[rows] + radius)
-        return np.asarray(_square_distances(center, self.begin[rows], self.end[rows]) < reach**2)
+        return np.asarray(_square_distances(center, begin, end) < reach**2)
 
     def meet(self, one: Ints, other: Ints) -> Bools:
         """Return whether stripes (p,) meet others.
@@ -43,7 +45,7 @@ class Bounds(NamedTuple):
         They do where their middle lines cross, or an end of one is near enough to the other.
         """
         reach = (ROOM * (self.radius[one] + self.radius[other])) ** 2
-        ends = [(self.begin[row], self.end[row]) for row in (one, other)]
+        ends = [(self.begin.take(row, axis=0), self.end.take(row, axis=0)) for row in (one, other)]
         met = _cross(*ends[0], *ends[1])
         for segment, points in ((0, 1), (1, 0)):
             for point in ends[points]:
@@ -54,13 +56,11 @@ class Bounds(NamedTuple):
         """Return what may be in front of some of each solid, and what may be seen behind it."""
         discs = self.discs()
         flat = np.column_stack([discs.center, np.zeros(len(discs.radius))])
-        one, other = intersecting_pairs(Spheres(flat, discs.radius))
-        met = in_threads(lambda block: self.meet(one[block], other[block]), blocks(np.ones_like(one), BLOCK_ROWS))
-        rows = np.flatnonzero(np.concatenate([*met, np.empty(0, dtype=bool)]))
-        one, other = one[rows], other[rows]
-        owner, item = np.concatenate([one, other]), np.concatenate([other, one])
-        order = np.argsort(owner * len(self.radius) + item)
-        owner, item = owner[order], item[order]
+        one, other = meeting_pairs(Spheres(flat, discs.radius))
+        parts = np.array_split(np.arange(len(one)), len(one) // BLOCK_PAIRS + 1)
+        met = np.concatenate(in_threads(lambda part: self.meet(one[part], other[part]), parts))
+        near = pairs_by_owner(one[met], other[met], len(self.radius))
+        owner, item = np.repeat(np.arange(len(self.radius)), np.diff(near.start)), near.item
         in_front, behind = (self.most[a] > self.least[b] for a, b in ((item, owner), (owner, item)))
         return self._listed(owner, item, in_front), self._listed(owner, item, behind)
 

@@ -16,6 +16,7 @@ from molviz.visibility.forms import Quadratic
 
 POLISH_STEPS = 3  # Newton steps for the roots themselves, quadratic from the lines' 1e-8 or better
 SMALL_FACTOR = 1e-3  # below this ratio of p and q, dividing by the smaller loses what the product e f still knows
+SMALL_TERM = 1e-6  # of a line: what is left beside it would be known to ten digits
 NOTHING = 1e-40  # of the function's size: far below rounding, and its square is still a number
 NEARLY_LINEAR = 1e-10  # second harmonic relative to the first below which one line is taken, and polished
 
@@ -97,13 +98,16 @@ def _two_lines(form: Harmonics) -> tuple[Floats, Floats, Floats, Floats]:
 
 
 def _terms(total: Floats, difference: Floats, product: Floats) -> tuple[Floats, Floats]:
-    """e and f from ``e + f``, ``f − e`` and ``e f``: by the sums, or by the product where these cancel."""
+    """e and f from ``e + f``, ``f − e`` and ``e f``: by the sums, or by the product where these cancel.
+
+    The product is a difference of numbers as large as 1: beside a term near nought it is rounding, the sums are not.
+    """
     e, f = (total - difference) / 2, (total + difference) / 2
     return _unless_lost(e, f, product), _unless_lost(f, e, product)
 
 
 def _unless_lost(term: Floats, other: Floats, product: Floats) -> Floats:
-    lost = np.abs(term) < SMALL_FACTOR * np.abs(other)
+    lost = (np.abs(term) < SMALL_FACTOR * np.abs(other)) & (np.abs(other) > SMALL_TERM)
     return np.divide(product, other, out=term.copy(), where=lost)
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints, ShortInts
+from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.rows import blocks, expand
 from molviz.threads import in_threads
 from molviz.visibility.occluders.sphere import SphereOccluders
@@ -17,6 +17,7 @@ from molviz.visibility.projection import Projection, images_of
 
 MOST_CELLS = 2048  # per axis
 BLOCK_ROWS = 1 << 15  # (sphere, cell) rows at a time: their columns stay in cache
+GROUP = 32  # blocks at a time
 
 
 class _Cells(NamedTuple):
@@ -30,29 +31,40 @@ class _Cells(NamedTuple):
 
 
 def possibly_visible(spheres: SphereOccluders, projection: Projection) -> Bools:
-    """Return which of n spheres may be seen (n,), in time linear in n for atoms."""
+    """Return which of n spheres may be seen (n,), in time linear in n for atoms.
+
+    The nearest come first: most spheres are hidden by what covers the page before them, and are done with. What is left
+    is asked again when all is known. No list of all spheres' cells is ever made.
+    """
     cells = _cells(spheres, projection)
-    count = int(cells.high[:, 1].max()) + 1
-    nearest_cover = np.full(count * cells.wide, -np.inf)
-
-    def bounds(block: slice) -> tuple[slice, ShortInts, Floats, ShortInts, Floats]:
-        sphere, cell, low = _rows(cells, block)
-        least, most = spheres.surface_bounds(sphere, low, cells.side)
-        covering = np.flatnonzero(least > -np.inf)
-        short = cell.astype(np.int32)  # all rows are kept: half the memory
-        return block, short, most, short[covering], least[covering]
-
-    touched = in_threads(bounds, _blocks(cells))
-    for _, _, _, covered, least in touched:
-        np.maximum.at(nearest_cover, covered, least)
-    seen = [_seen(cells, block, most > nearest_cover[cell]) for block, cell, most, _, _ in touched]
-    return np.concatenate(seen)
+    cover = np.full((int(cells.high[:, 1].max()) + 1) * cells.wide, -np.inf)  # how near each cell is covered
+    left: list[Ints] = []
+    for group in _groups(cells, np.argsort(-spheres.nearness())):
+        for shown, cell, least in in_threads(lambda rows: _bounds(spheres, cells, rows, cover), group):
+            left.append(shown)
+            np.maximum.at(cover, cell, least)
+    rows = np.concatenate(left)
+    again = in_threads(lambda block: _bounds(spheres, cells, rows[block], cover)[0], _blocks(cells, rows))
+    visible: Bools = np.zeros(len(cells.low), dtype=bool)
+    visible[np.concatenate(again)] = True
+    return visible
 
 
-def _seen(cells: _Cells, block: slice, shows: Bools) -> Bools:
-    """Which of some spheres show in one of their cells."""
-    number = np.prod(cells.high[block] - cells.low[block] + 1, axis=1)
-    return np.asarray(np.maximum.reduceat(shows, np.cumsum(number) - number))
+def _groups(cells: _Cells, order: Ints) -> Iterator[list[Ints]]:
+    """All spheres in that order, in groups of blocks that know of each other's cover only when all are done."""
+    every = [order[block] for block in _blocks(cells, order)]
+    for begin in range(0, len(every), GROUP):
+        yield every[begin : begin + GROUP]
+
+
+def _bounds(spheres: SphereOccluders, cells: _Cells, rows: Ints, cover: Floats) -> tuple[Ints, Ints, Floats]:
+    """Which of the given spheres show in one of their cells, and the cells that they cover nearer, and how near."""
+    number, cell, low = _rows(cells, rows)
+    least, most = spheres.surface_bounds(np.repeat(rows, number), low, cells.side)
+    known = cover[cell]
+    nearer = np.flatnonzero(least > known)
+    shows = np.maximum.reduceat(most > known, np.cumsum(number) - number)
+    return rows[shows], cell[nearer], least[nearer]
 
 
 def _cells(spheres: SphereOccluders, projection: Projection) -> _Cells:
@@ -74,16 +86,16 @@ def outlines(spheres: SphereOccluders, projection: Projection) -> tuple[Floats, 
     return images.c, images.half_extent()
 
 
-def _blocks(cells: _Cells) -> Iterator[slice]:
+def _blocks(cells: _Cells, rows: Ints) -> Iterator[slice]:
     """Spheres whose bounding boxes touch about as many cells together."""
-    return blocks(np.prod(cells.high - cells.low + 1, axis=1), BLOCK_ROWS)
+    return blocks(np.prod(cells.high[rows] - cells.low[rows] + 1, axis=1), BLOCK_ROWS)
 
 
-def _rows(cells: _Cells, block: slice) -> tuple[Ints, Ints, Floats]:
-    """All (sphere, cell) of the bounding boxes of some spheres, with the cells' lower left corners."""
-    low = cells.low[block]
-    width, height = (cells.high[block] - low + 1).T
+def _rows(cells: _Cells, rows: Ints) -> tuple[Ints, Ints, Floats]:
+    """How many cells the bounding box of each sphere touches, and all of them, with their lower left corners."""
+    low = cells.low.take(rows, axis=0)
+    width, height = (cells.high.take(rows, axis=0) - low + 1).T
     sphere, place = expand(np.zeros_like(width), width * height)
     row, column = np.divmod(place, width[sphere])
     x, y = low[sphere, 0] + column, low[sphere, 1] + row
-    return sphere + block.start, y * cells.wide + x, cells.origin + np.stack([x, y], axis=1) * cells.side
+    return width * height, y * cells.wide + x, cells.origin + np.stack([x, y], axis=1) * cells.side

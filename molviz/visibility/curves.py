@@ -46,8 +46,8 @@ class Curves(NamedTuple):
 
     def at(self, curve: Ints, angle: Floats) -> Floats:
         """Return the points (k, 3) at the given angles of the given curves."""
-        spoke = self.a[curve] * np.cos(angle)[:, None] + self.b[curve] * np.sin(angle)[:, None]
-        return np.asarray(self.center[curve] + spoke)
+        center, a, b = (column.take(curve, axis=0) for column in self[3:])
+        return np.asarray(center + a * np.cos(angle)[:, None] + b * np.sin(angle)[:, None])
 
     def circles(self) -> Circles:
         """Return the same curves without their kinds."""
@@ -55,7 +55,7 @@ class Curves(NamedTuple):
 
     def take(self, rows: Ints) -> "Curves":
         """Return the given curves, in that order."""
-        rest = (column[rows] for column in self[3:])
+        rest = (column.take(rows, axis=0) for column in self[3:])
         return Curves(self.kind[rows], self.first[rows], self.second[rows], *rest)
 
     def followed_by(self, others: "Curves") -> "Curves":

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Ints
+from molviz.arrays import Bools, Ints, distinct
 from molviz.curves import PlaneArcs
 from molviz.geometry.boundary import Boundary
 from molviz.geometry.grid import Neighbours
@@ -88,7 +88,7 @@ class VisibilityMap(NamedTuple):
         return self.curves.of_kind(HORIZON)
 
     def __repr__(self) -> str:
-        seen = len(np.unique(self.loops.face[self.loops.face != BACKGROUND]))
+        seen = len(distinct(self.loops.face[self.loops.face != BACKGROUND]))
         arcs = len(self.curve_arcs.curve)
         return f"<VisibilityMap: {len(self.spheres.radius)} spheres, {seen} visible, {arcs} arcs>"
 

@@ -75,7 +75,7 @@ def creases_hidden(
         curve, sphere = row + block.start, near.item[entry]
         rows = np.flatnonzero(nearness[sphere] > nearest[curve])
         curve, sphere = curve[rows], sphere[rows]
-        apart = image.center[curve] - discs.center[sphere]
+        apart = image.center.take(curve, axis=0) - discs.center.take(sphere, axis=0)
         reach = image.radius[curve] + discs.radius[sphere]
         rows = np.flatnonzero(dot(apart, apart) < reach**2)
         return [

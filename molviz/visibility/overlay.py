@@ -7,9 +7,8 @@ from a light and grown as little is seen on the side of its sphere that the ligh
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.grid import neighbours
-from molviz.geometry.rows import expand
+from molviz.arrays import Bools, Floats, Ints, distinct
+from molviz.geometry.grid import meeting_pairs
 from molviz.model.spheres import Spheres
 from molviz.visibility.eye import from_the_eye, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
@@ -21,7 +20,7 @@ MOVED = 1e-3  # of a radius: how far a copy that marks a side of its sphere is m
 
 def seen_spheres(view_map: VisibilityMap) -> Ints:
     """Return the spheres that have a face, ascending."""
-    faces = np.unique(view_map.loops.face)
+    faces = distinct(view_map.loops.face)
     return np.asarray(faces[faces != BACKGROUND])
 
 
@@ -64,7 +63,10 @@ def on_ledges(page: Floats, height: Floats, wanted: Ints, within: float, below: 
     sphere. Lone tips, which are not part of a surface, have none.
     """
     flat = np.column_stack([page, np.zeros(len(page))])
-    near = neighbours(Spheres(flat, np.full(len(page), within / 2)))
-    row, entry = expand(near.start[wanted], near.start[wanted + 1])
-    higher = height[near.item[entry]] > below[row]
-    return np.asarray(np.bincount(row[higher], minlength=len(wanted)) >= least)
+    one, other = meeting_pairs(Spheres(flat, np.full(len(page), within / 2)))
+    lowest = np.full(len(page), np.inf)  # that counts; nothing does for what is not wanted
+    lowest[wanted] = below
+    many = np.zeros(len(page), dtype=np.int64)
+    for own, near in ((one, other), (other, one)):
+        many += np.bincount(own[height[near] > lowest[own]], minlength=len(page))
+    return np.asarray(many[wanted] >= least)

@@ -14,11 +14,12 @@ from molviz.visibility.bounds import Bounds
 from molviz.visibility.eye import occluders_of
 from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.occluders.stick import StickOccluders
-from molviz.visibility.occlusion import BLOCK_ROWS, Discs, discs_of, overlaps
+from molviz.visibility.occlusion import Discs, discs_of, overlaps
 from molviz.visibility.projection import Projection
 from molviz.visibility.view import View
 
 BACKGROUND = -1
+BLOCK_ROWS = 1 << 16  # (point, solid) rows at a time: their columns stay in cache
 ABOVE = 1e-9  # ångström, by which a stick is nearer than the ball on which it lies
 
 
@@ -116,17 +117,16 @@ class Solids(NamedTuple):
         """
         begin, end = near.start[own], near.start[own + 1]
 
-        def nearest_in(block: slice) -> Ints:
+        def nearest(block: slice) -> Ints:
             row, entry = expand(begin[block], end[block])
-            item, page = near.item[entry], points[block]
-            inside = np.flatnonzero(bounds.meet_discs(item, page[row], np.zeros(len(row))))
+            item, at = near.item[entry], points[block]
+            inside = np.flatnonzero(bounds.meet_discs(item, at.take(row, axis=0), np.zeros(len(row))))
             row, item = row[inside], item[inside]
-            surface, solid = self.surfaces(item, page[row], projection)
+            surface, solid = self.surfaces(item, at.take(row, axis=0), projection)
             rows = np.flatnonzero(surface > -np.inf)
             rows = rows[ordered(row[rows], surface[rows])]
-            nearest = np.full(len(page), BACKGROUND)
-            nearest[row[rows]] = solid[rows]  # ascending: the last one written is the nearest
-            return nearest
+            found = np.full(len(at), BACKGROUND)
+            found[row[rows]] = solid[rows]  # ascending: the last one written is the nearest
+            return found
 
-        found = in_threads(nearest_in, blocks(end - begin, 4 * BLOCK_ROWS))
-        return np.concatenate([*found, np.empty(0, dtype=np.int64)])
+        return np.concatenate([np.empty(0, dtype=np.int64), *in_threads(nearest, blocks(end - begin, BLOCK_ROWS))])

@@ -39,7 +39,7 @@ def hidden_of_stick_curves(
     def hidden_in(block: slice) -> tuple[Hidden, Hidden]:
         row, entry = expand(begin[block], end[block])
         curve, solid = row + block.start, near.item[entry]
-        met = bounds.meet_discs(solid, discs.center[curve], discs.radius[curve])
+        met = bounds.meet_discs(solid, discs.center.take(curve, axis=0), discs.radius[curve])
         rows = np.flatnonzero(met | (of.curves.kind[curve] == LINE))
         curve, solid = curve[rows], solid[rows]
         ball = solid < count

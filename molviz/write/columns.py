@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints, Words
+from molviz.arrays import Bools, Floats, Ints, Words, distinct
 from molviz.curves import Paths
 from molviz.threads import in_threads
 
@@ -34,8 +34,8 @@ class Formatted(NamedTuple):
 def formatted(paths: Paths, write: Callable[[Paths], Formatted]) -> Formatted:
     """Return what ``write`` makes of the paths, which are given to it in blocks of whole loops, each one shape."""
     loops, arcs = len(paths.loop_start) - 1, len(paths.arcs.start)
-    cuts = np.unique(np.searchsorted(paths.loop_start, np.arange(0, arcs + BLOCK, BLOCK)).clip(0, loops))
-    cuts = np.unique([0, *cuts.tolist(), loops])
+    at = np.searchsorted(paths.loop_start, np.arange(0, arcs + BLOCK, BLOCK)).clip(0, loops)
+    cuts = distinct(np.concatenate([[0], at, [loops]]))
     parts = in_threads(lambda cut: write(_loops(paths, *cut)), zip(cuts, cuts[1:], strict=False))
     before = np.cumsum([0, *(len(part.text) for part in parts)])
     stops = [part.stop + shift for part, shift in zip(parts, before, strict=False)]

@@ -6,7 +6,7 @@ from functools import cache
 
 PLAIN = {"′": "'", "″": "''", "’": "'", "‘": "'", "“": '"', "”": '"', "–": "-", "—": "-", "−": "-", "×": "x", "·": "."}
 NOT_A_NAME, NAME_START = re.compile("[^A-Za-z0-9_.-]"), re.compile("[A-Za-z_]")
-NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+NOT_XML = "[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
 
 def number(value: float, places: int = 2) -> str:
@@ -20,7 +20,7 @@ def number(value: float, places: int = 2) -> str:
 
 def clean(text: str) -> str:
     """Return a text in which characters that XML cannot hold became U+FFFD."""
-    return text if text.isascii() and text.isprintable() else NOT_XML.sub("\ufffd", text)
+    return text if text.isascii() and text.isprintable() else re.sub(NOT_XML, "\ufffd", text)
 
 
 def ascii_line(text: str) -> str:

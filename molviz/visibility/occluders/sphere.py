@@ -56,8 +56,8 @@ class SphereOccluders(Protocol):
 
 
 def _angle_on(curves: Curves, curve: Ints, points: Floats) -> Floats:
-    offset = points - curves.center[curve]
-    return np.arctan2(dot(offset, curves.b[curve]), dot(offset, curves.a[curve]))
+    offset = points - curves.center.take(curve, axis=0)
+    return np.arctan2(dot(offset, curves.b.take(curve, axis=0)), dot(offset, curves.a.take(curve, axis=0)))
 
 
 class ParallelSpheres(NamedTuple):
@@ -82,13 +82,13 @@ class ParallelSpheres(NamedTuple):
     def horizon_margin(self, horizons: Curves, own: Ints, other: Ints) -> Linear:
         """Inside one disc: of radius rk if k is nearer (its occlusion), else that of ball k cut at height zi."""
         center, radius = self.spheres
-        toward = center[other] - center[own]
+        toward = center.take(other, axis=0) - center.take(own, axis=0)
         below = np.minimum(toward[:, 2], 0.0)
         square = radius[other] ** 2 - below**2
         flat = toward[:, 0] ** 2 + toward[:, 1] ** 2
         toward[:, 2] = 0.0
         c = (square - flat - radius[own] ** 2) / 2
-        return Linear(dot(horizons.a[own], toward), dot(horizons.b[own], toward), c)
+        return Linear(dot(horizons.a.take(own, axis=0), toward), dot(horizons.b.take(own, axis=0), toward), c)
 
     def plane_margin(self, curves: Curves, curve: Ints, sphere: Ints) -> Linear:
         """``z_k − p_z``."""
@@ -97,19 +97,19 @@ class ParallelSpheres(NamedTuple):
 
     def cone(self, curves: Curves, curve: Ints, sphere: Ints) -> Quadratic:
         """``|p⊥ − ck⊥|² − rk²``."""
-        a, b = curves.a[curve, :2], curves.b[curve, :2]
-        m = curves.center[curve, :2] - self.spheres.center[sphere, :2]
+        a, b = curves.a.take(curve, axis=0)[:, :2], curves.b.take(curve, axis=0)[:, :2]
+        m = curves.center.take(curve, axis=0)[:, :2] - self.spheres.center.take(sphere, axis=0)[:, :2]
         c = dot(m, m) - self.spheres.radius[sphere] ** 2
         return Quadratic(dot(a, a), dot(a, b), dot(b, b), dot(a, m), dot(b, m), c)
 
     def surface(self, sphere: Ints, page: Floats) -> Floats:
         """``z_k + √(rk² − |p⊥ − ck⊥|²)``."""
-        offset = page - self.spheres.center[sphere, :2]
+        offset = page - self.spheres.center.take(sphere, axis=0)[:, :2]
         return self._height(sphere, self.spheres.radius[sphere] ** 2 - dot(offset, offset))
 
     def surface_bounds(self, sphere: Ints, low: Floats, side: float) -> tuple[Floats, Floats]:
         """The heights above the cell's farthest and nearest point from the centre: a hemisphere falls outwards."""
-        offset = np.abs(low + side / 2 - self.spheres.center[sphere, :2])
+        offset = np.abs(low + side / 2 - self.spheres.center.take(sphere, axis=0)[:, :2])
         square = self.spheres.radius[sphere] ** 2
         return (
             self._height(sphere, square - np.sum((offset + side / 2) ** 2, axis=1)),
@@ -171,18 +171,19 @@ class CentralSpheres(NamedTuple):
         half = (dot(toward, center + centers[other]) - (other_square - square)) / 2
         step = 2 * half / (tangent[own] + tangent[other])
         constant = ball + np.where(half < 0, step**2 / 2, 0.0)
-        return Linear(dot(horizons.a[own], toward), dot(horizons.b[own], toward), constant)
+        return Linear(dot(horizons.a.take(own, axis=0), toward), dot(horizons.b.take(own, axis=0), toward), constant)
 
     def plane_margin(self, curves: Curves, curve: Ints, sphere: Ints) -> Linear:
         """``p · ck − Lk²``."""
-        c = self.spheres.center[sphere]
+        c = self.spheres.center.take(sphere, axis=0)
         square = dot(c, c) - self.spheres.radius[sphere] ** 2
-        return Linear(dot(curves.a[curve], c), dot(curves.b[curve], c), dot(curves.center[curve], c) - square)
+        m, a, b = (dot(column.take(curve, axis=0), c) for column in curves[3:])
+        return Linear(a, b, m - square)
 
     def cone(self, curves: Curves, curve: Ints, sphere: Ints) -> Quadratic:
         """``|p|² Lk² − (p · ck)²``, as ``|(p − ck) × ck|² − rk² |p|²``, in which nothing large cancels."""
-        c, square = self.spheres.center[sphere], self.spheres.radius[sphere] ** 2
-        parts = (curves.a[curve], curves.b[curve], curves.center[curve])
+        c, square = self.spheres.center.take(sphere, axis=0), self.spheres.radius[sphere] ** 2
+        parts = (curves.a.take(curve, axis=0), curves.b.take(curve, axis=0), curves.center.take(curve, axis=0))
         across = [np.cross(part, c) for part in (parts[0], parts[1], parts[2] - c)]
 
         def form(i: int, j: int) -> Floats:
@@ -194,7 +195,7 @@ class CentralSpheres(NamedTuple):
         """Minus the distance ``p·ĉ D − √(r² − D² sin²)`` at which the line of sight enters the ball."""
         ray = np.column_stack([page, np.full(len(page), -self.distance)])
         ray /= length(ray)[:, None]
-        c = self.spheres.center[sphere]
+        c = self.spheres.center.take(sphere, axis=0)
         along, beside = dot(ray, c), np.cross(ray, c)
         square = self.spheres.radius[sphere] ** 2 - dot(beside, beside)
         with np.errstate(invalid="ignore"):

@@ -61,24 +61,25 @@ class StickOccluders(NamedTuple):
 
     def behind(self, curves: Curves, curve: Ints, stick: Ints, condition: int) -> Linear:
         """Return the function on the curves that is positive where one of the five conditions holds."""
-        plane, at = self.planes[stick, condition], self.at[stick, condition]
-        return plane_function(curves, curve, self.start[stick], plane, at)
+        row = self.at.shape[1] * stick + condition
+        plane, at = self.planes.reshape(-1, 3).take(row, axis=0), self.at.ravel().take(row)
+        return plane_function(curves, curve, self.start.take(stick, axis=0), plane, at)
 
     def all_behind(self, curves: Curves, curve: Ints, stick: Ints) -> Linear:
         """Return the same for all five conditions, each a row of functions on the m curves: columns are (5, m)."""
-        planes = np.ascontiguousarray(self.planes[stick].transpose(2, 1, 0))  # x, y and z of the five
-        a, b = curves.a[curve], curves.b[curve]
-        m = curves.center[curve] - self.start[stick]
+        planes = np.ascontiguousarray(self.planes.take(stick, axis=0).transpose(2, 1, 0))  # x, y and z of the five
+        center, a, b = (column.take(curve, axis=0) for column in curves[3:])
+        m = center - self.start.take(stick, axis=0)
         on_a, on_b, on_m = (planes[0] * v[:, 0] + planes[1] * v[:, 1] + planes[2] * v[:, 2] for v in (a, b, m))
-        return Linear(on_a, on_b, on_m - self.at[stick].T)
+        return Linear(on_a, on_b, on_m - self.at.take(stick, axis=0).T)
 
     def hits(self, stick: Ints, origin: Floats, ray: Floats) -> tuple[Floats, Bools]:
         """Return how far along unit rays (m, 3) from points (m, 3) sticks are hit, and whether beyond their middles.
 
         Infinite where a ray misses the stick. With everything seen along the axis, ``|λ r − c|² = s²``.
         """
-        u = self.direction[stick]
-        c = self.start[stick] - origin
+        u = self.direction.take(stick, axis=0)
+        c = self.start.take(stick, axis=0) - origin
         r = ray - u * dot(ray, u)[:, None]
         flat = c - u * dot(c, u)[:, None]
         rr, rc = dot(r, r), dot(r, flat)
@@ -115,8 +116,8 @@ class StickOccluders(NamedTuple):
 
 def plane_function(curves: Curves, curve: Ints, origin: Floats, normal: Floats, at: Floats) -> Linear:
     """Return ``(p − origin) · normal − at`` on the curves."""
-    c = dot(curves.center[curve] - origin, normal) - at
-    return Linear(dot(curves.a[curve], normal), dot(curves.b[curve], normal), c)
+    center, a, b = (column.take(curve, axis=0) for column in curves[3:])
+    return Linear(dot(a, normal), dot(b, normal), dot(center - origin, normal) - at)
 
 
 def stick_occluders(spheres: Spheres, sticks: Sticks, central: bool) -> StickOccluders:
