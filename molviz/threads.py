@@ -9,6 +9,7 @@ from typing import TypeVar
 
 T = TypeVar("T")
 R = TypeVar("R")
+S = TypeVar("S")
 
 _chosen: list[int] = []  # by the user; empty: all there are
 
@@ -34,3 +35,14 @@ def in_threads(work: Callable[[T], R], blocks: Iterable[T]) -> list[R]:
 
     with ThreadPoolExecutor(min(count(), len(several))) as pool:
         return list(pool.map(work, several))
+
+
+def both(one: Callable[[], R], other: Callable[[], S], worth: bool) -> tuple[R, S]:
+    """Return the results of two pieces of work, done side by side where that is ``worth`` a thread."""
+    if not worth or count() < 2:
+        return one(), other()
+    from concurrent.futures import ThreadPoolExecutor
+
+    with ThreadPoolExecutor(1) as pool:
+        later = pool.submit(other)
+        return one(), later.result()

@@ -142,3 +142,17 @@ def test_half_edges_run_along_their_arcs_or_back() -> None:
     both = oriented(side, np.array([0, 1]))
     assert np.allclose(both.at(both.start), [[0, 0], [2, 1]])
     assert np.allclose(both.at(both.start + both.sweep), [[2, 1], [0, 0]])
+
+
+@given(st.integers(0, 10_000), st.integers(0, 300))
+def test_cycles_longer_than_those_found_all_at_once_are_found_too(seed: int, count: int) -> None:
+    following = np.random.default_rng(seed).permutation(count)
+    walked: list[list[int]] = []
+    left = set(range(count))
+    while left:
+        walked.append([min(left)])
+        while (edge := int(following[walked[-1][-1]])) != walked[-1][0]:
+            walked[-1].append(edge)
+        left -= set(walked[-1])
+    row, start = cycles(following)
+    assert [part.tolist() for part in np.split(row, start[1:-1])] == (walked or [[]])

@@ -8,13 +8,26 @@ from click.testing import CliRunner
 
 from molviz import threads
 from molviz.cli import main
-from molviz.geometry import boundary, grid
-from molviz.visibility import culling, occlusion
+from molviz.geometry import boundary, grid, intervals
+from molviz.picture import compose, ink
+from molviz.visibility import (
+    bounds,
+    culling,
+    horizon_runs,
+    junctions,
+    named_arcs,
+    occlusion,
+    solids,
+    stick_occlusion,
+)
 from molviz.write import columns
 
 SAMPLES = Path(__file__).parent.parent / "samples"
 MODULES = [(boundary, "BLOCK_ENTRIES", 1 << 9), (grid, "BLOCK_ROWS", 1 << 9), (culling, "BLOCK_ROWS", 1 << 9),
-           (occlusion, "BLOCK_ROWS", 1 << 7), (columns, "BLOCK", 1 << 6)]  # fmt: skip
+           (intervals, "BLOCK_ROWS", 1 << 7), (compose, "MANY", 1), (ink, "BLOCK_SAMPLES", 1 << 7),
+           (bounds, "BLOCK_PAIRS", 1 << 7), (named_arcs, "MANY", 1), (junctions, "MANY", 1), (columns, "BLOCK", 1 << 6),
+           *((module, "BLOCK_ROWS", 1 << 7) for module in (horizon_runs, occlusion, solids, stick_occlusion)),
+           ]  # fmt: skip
 
 
 @pytest.fixture(autouse=True)
@@ -27,7 +40,7 @@ def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize(
     "words",
-    [["draw", f"{SAMPLES}/1a8o.pdb", "--to", "svg"],
+    [["draw", f"{SAMPLES}/1a8o.pdb", "--to", "svg"], ["draw", f"{SAMPLES}/1a8o.pdb", "--rep", "sticks", "--to", "svg"],
      ["draw", f"{SAMPLES}/c60.xyz", "--perspective", "30", "--to", "ps"],
      ["hidden-lines", "--random", "3000", "--fill", "flat", "--to", "pdf"], ["measure", f"{SAMPLES}/1a8o.pdb"]],
 )  # fmt: skip

@@ -5,7 +5,7 @@ sphere are in the 3 × 3 columns of three cubes around it, each of which is one 
 Empty slabs of cubes collapse to one, so that cube numbers stay small however far apart the spheres are.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -85,7 +85,10 @@ def meeting_pairs(spheres: Spheres) -> tuple[Ints, Ints]:
     if len(spheres.radius) < 2:
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     index = grid_index(spheres)
-    pairs = in_threads(lambda block: _meeting(index, *block), _candidate_blocks(index))
+    columns = (*np.ascontiguousarray(index.spheres.center.T), index.spheres.radius)
+    candidates = list(_candidate_blocks(index))
+    few = len(candidates) <= 1 + len(LATER_COLUMNS)  # a block for each range of columns: no work for threads
+    pairs = (map if few else in_threads)(lambda block: _meeting(columns, *block), candidates)
     one, other = (index.row[np.concatenate(column)] for column in zip(*pairs, strict=True))
     return one, other
 
@@ -108,11 +111,10 @@ def _candidate_blocks(index: GridIndex) -> Iterator[tuple[int, Ints, Ints]]:
             yield block.start, begin[block], end[block]
 
 
-def _meeting(index: GridIndex, first: int, begin: Ints, end: Ints) -> tuple[Ints, Ints]:
+def _meeting(columns: Sequence[Floats], first: int, begin: Ints, end: Ints) -> tuple[Ints, Ints]:
     owner, other = expand(begin, end)
     one = owner + first
-    x, y, z = (np.ascontiguousarray(column) for column in index.spheres.center.T)
-    radius = index.spheres.radius
+    x, y, z, radius = columns
     gap = (x[one] - x[other]) ** 2 + (y[one] - y[other]) ** 2 + (z[one] - z[other]) ** 2
     meets = gap < (radius[one] + radius[other]) ** 2
     return one[meets], other[meets]

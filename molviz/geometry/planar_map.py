@@ -16,6 +16,7 @@ from molviz.geometry.general_position import Degenerate
 from molviz.geometry.rows import lists_taken
 
 UNUSED = -2  # label of a half-edge that bounds nothing
+SHORT = 40  # members of cycles that are found all at once: nearly all cycles are shorter
 
 
 class PlanarMap(NamedTuple):
@@ -47,8 +48,8 @@ def planar_map(origin: Ints, target: Ints, left: Ints, right: Ints) -> PlanarMap
     """
     begin, end, face = directed(origin, target), directed(target, origin), directed(left, right)
     used = np.flatnonzero(face != UNUSED)
-    leaving = used[np.lexsort((face[used], begin[used]))]
-    arriving = used[np.lexsort((face[used], end[used]))]
+    faces = int(face.max(initial=0)) - UNUSED + 1
+    leaving, arriving = (used[np.argsort(vertex[used] * faces + face[used])] for vertex in (begin, end))
     balanced = np.array_equal(begin[leaving], end[arriving]) and np.array_equal(face[leaving], face[arriving])
     again = (np.diff(begin[leaving]) == 0) & (np.diff(face[leaving]) == 0)
     if not balanced or again.any():
@@ -97,17 +98,53 @@ def cycles(following: Ints) -> tuple[Ints, Ints]:
 
     Members followed by −1 are left out.
     """
-    successor = following.tolist()
-    order: list[int] = []
-    start = [0]
-    for first in np.flatnonzero(following >= 0).tolist():
-        edge = first
+    first, length, candidate = _short_cycles(following)
+    long = _cycles_of(following, candidate)
+    lowest = np.append(first, [cycle[0] for cycle in long]).astype(np.int64)
+    size = np.append(length, [len(cycle) for cycle in long]).astype(np.int64)
+    order = np.argsort(lowest)
+    start = np.append(0, np.cumsum(size[order]))
+    place = np.empty(len(order), dtype=np.int64)
+    place[order] = start[:-1]
+    member = np.empty(int(start[-1]), dtype=np.int64)
+    for begin, cycle in zip(place[len(first) :].tolist(), long, strict=True):
+        member[begin : begin + len(cycle)] = cycle
+    edge, place, left = first, place[: len(first)], length
+    while len(edge):
+        member[place] = edge
+        on = left > 1
+        edge, place, left = following[edge[on]], place[on] + 1, left[on] - 1
+    return member, start
+
+
+def _short_cycles(following: Ints) -> tuple[Ints, Ints, Ints]:
+    """The lowest members of cycles of at most SHORT members and their lengths, and what may be lowest of others.
+
+    All at once: from each member that the next one is not lower than, step by step until one is, or it is back.
+    """
+    first = np.flatnonzero(following >= np.arange(len(following)))
+    edge = following[first]
+    found, lengths = [first[:0]], [first[:0]]
+    for length in range(1, SHORT + 1):
+        back = first[edge == first]
+        found.append(back)
+        lengths.append(np.full(len(back), length))
+        on = edge > first
+        first, edge = first[on], following[edge[on]]
+    return np.concatenate(found), np.concatenate(lengths), first
+
+
+def _cycles_of(following: Ints, candidate: Ints) -> list[list[int]]:
+    """The cycles of members (ascending) among which are the lowest of all these cycles."""
+    successor, cycles_found = following.tolist(), []
+    for first in candidate.tolist():
+        edge, cycle = first, []
         while successor[edge] >= 0:
-            order.append(edge)
+            cycle.append(edge)
             successor[edge], edge = -1, successor[edge]
-        if len(order) > start[-1]:
-            start.append(len(order))
-    return np.array(order, dtype=np.int64), np.array(start, dtype=np.int64)
+        if cycle:
+            cycles_found.append(cycle)
+    return cycles_found
 
 
 def euler_defect(edges: PlanarMap, boundary: Loops) -> int:
@@ -127,5 +164,6 @@ def oriented(arcs: PlaneArcs, half_edge: Ints) -> PlaneArcs:
 
 def loop_areas(arcs: PlaneArcs, boundary: Loops) -> Floats:
     """Return the signed area of each loop, ``½ ∮ x dy − y dx``; positive where the interior is inside."""
-    area = oriented(arcs, boundary.half_edge).signed_area()
+    forward = arcs.signed_area()
+    area = np.stack([forward, -forward], axis=1).ravel()[boundary.half_edge]
     return np.add.reduceat(area, boundary.start[:-1]) if len(boundary.half_edge) else np.empty(0)

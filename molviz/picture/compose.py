@@ -55,6 +55,7 @@ from molviz.picture.regions import (
 from molviz.picture.shading import ball_gradients, contact_steps, light_bands
 from molviz.picture.stick_light import StickLight
 from molviz.picture.tints import entity_tints
+from molviz.threads import both
 from molviz.visibility.eye import projection_of
 from molviz.visibility.horizon_runs import HorizonRuns, horizon_runs
 from molviz.visibility.lines import CREASE, OUTLINE, ROLES, SILHOUETTE, line_roles, slivers
@@ -69,6 +70,7 @@ BY_PALETTE = ("entity", "chain")  # schemes whose colours are the palette's
 DARK_PAGE = 50.0  # L*: on pages below, texts and bars are light
 LIGHT_TEXT = (240, 240, 240)
 WHITE = (255, 255, 255)
+MANY = 5_000  # spheres, from which on layers made side by side are worth a thread
 INK_CLASSES = 3  # of distance, in which ink takes on the haze
 INK_FOG = 0.25  # of the fog's strength that the ink of the farthest class takes on
 
@@ -113,7 +115,9 @@ class MapComposer:
         """Return all layers in painting order: regions, shade, light, lines."""
         layers: list[Layer] = []
         if self.fill != "none":
-            layers += [self.regions(), *self.shade(), *self.light(), *self.sticks()]
+            many = len(self.looks.fill) > MANY  # both ask for the looks, which are known now
+            regions, _ = both(self.regions, lambda: self.inking, many)
+            layers += [regions, *self.shade(), *self.light(), *self.sticks()]
         return [*layers, *self.hatching(), *self.edges(), *self.ink()]
 
     @cached_property
@@ -363,8 +367,10 @@ class MapComposer:
         """Return lines of varying width: dark ones around things, the things' own within them; far ones first."""
         if self.inking is None:
             return []
-        strokes, paths, dark = inked(*self.inking)
-        filled = pockets(self.map, *self.inking)
+        inking = self.inking
+        (strokes, paths, dark), filled = both(
+            lambda: inked(*inking), lambda: pockets(self.map, *inking), len(self.looks.fill) > MANY
+        )
         paths, dark = stacked([filled.paths, paths]), np.append(filled.dark, dark)
         sphere, looks = self.runs.sphere[np.append(filled.run, strokes.run)], self.looks
         if not len(sphere):

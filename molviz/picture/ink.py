@@ -6,17 +6,19 @@ into the lighter one; no line is wider at its
 end than another one that it meets there.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.rows import ordered
+from molviz.geometry.rows import blocks, ordered
+from molviz.threads import both, in_threads
 from molviz.visibility.horizon_runs import HorizonRuns
 from molviz.visibility.map import BACKGROUND
 
+BLOCK_SAMPLES = 1 << 15  # at a time: their columns stay in cache
 SIGMA = 0.2  # ångström, of the smoothing of widths along a line
 LEVEL = 0.15  # ångström for which a line keeps its width where a lighter one takes over
 FADE = 0.9  # ångström in which it would then fade to nothing
@@ -104,51 +106,77 @@ def line_widths(
     width = np.minimum(width, WIDEST_SHARE * runs.detail[runs.owner()])
     width = _smoothed(_fading(width * (1.0 - FARTHER_THINNER * far[own]), runs), runs, SIGMA)
     thinnest = max(THINNEST, THINNEST_SHARE * inside)
-    width[width < thinnest] = 0.0
-    width[_spurs(runs, width, SPUR_SHARE * inside)] = 0.0
-    width, ends = _entering(width, runs, np.where(foreign, crease, 0.0))
-    width[width < thinnest] = 0.0
-    return Widths(_joining(width, runs, ends), _dark_share(background | foreign, runs), ends)
+
+    def ending() -> tuple[Floats, Ints]:
+        width[width < thinnest] = 0.0
+        width[_spurs(runs, width, SPUR_SHARE * inside)] = 0.0
+        entering, ends = _entering(width, runs, np.where(foreign, crease, 0.0))
+        entering[entering < thinnest] = 0.0
+        return _joining(entering, runs, ends), ends
+
+    dark, (joining, ends) = both(
+        lambda: _dark_share(background | foreign, runs), ending, len(width) > BLOCK_SAMPLES
+    )
+    return Widths(joining, dark, ends)
 
 
-def _along(runs: HorizonRuns, reach: float) -> Iterator[tuple[float, Ints]]:
-    """Distances of up to ``reach`` ångström both ways, and the samples so far from each.
+def _by_blocks(runs: HorizonRuns, values_in: Callable[[slice], Floats]) -> Floats:
+    """The values of all samples (s,), found in blocks of runs that stay in cache, shared by threads."""
+    found = in_threads(values_in, blocks(np.diff(runs.start), BLOCK_SAMPLES))
+    return np.concatenate([*found, np.empty(0)])
+
+
+def _along(runs: HorizonRuns, block: slice, reach: float) -> Iterator[tuple[float, Ints]]:
+    """Distances of up to ``reach`` ångström both ways, and the samples so far from each of those of a block of runs.
 
     Closed runs go all round; ends count as if they went on.
     """
-    owner = runs.owner()
-    place, count = np.arange(len(owner)) - runs.start[owner], np.diff(runs.start)[owner]
+    start, size = runs.start[block], np.diff(runs.start)[block]
+    begin, count = np.repeat(start, size), np.repeat(size, size)
+    closed, place = np.repeat(runs.closed[block], size), np.arange(len(begin)) + start[0] - begin
     steps = int(np.ceil(reach / runs.spacing))
     for step in range(-steps, steps + 1):
         wrapped = np.mod(place + step, np.maximum(count - 1, 1))  # the last sample of a closed run is the first
-        other = np.where(runs.closed[owner], wrapped, np.clip(place + step, 0, count - 1))
-        yield abs(step) * runs.spacing, runs.start[owner] + other
+        other = np.where(closed, wrapped, np.clip(place + step, 0, count - 1))
+        yield abs(step) * runs.spacing, begin + other
 
 
 def _smoothed(values: Floats, runs: HorizonRuns, sigma: float) -> Floats:
     """Gaussian means along each run."""
-    total, weights = np.zeros(len(values)), 0.0
-    for distance, other in _along(runs, 3 * sigma):
-        weight = np.exp(-0.5 * (distance / sigma) ** 2)
-        total += weight * values[other]
-        weights += weight
-    return np.asarray(total / weights)
+
+    def means(block: slice) -> Floats:
+        total, weights = np.zeros(runs.start[block.stop] - runs.start[block.start]), 0.0
+        for distance, other in _along(runs, block, 3 * sigma):
+            weight = np.exp(-0.5 * (distance / sigma) ** 2)
+            total += weight * values[other]
+            weights += weight
+        return np.asarray(total / weights)
+
+    return _by_blocks(runs, means)
 
 
 def _fading(width: Floats, runs: HorizonRuns) -> Floats:
     """The widths, and beside heavier stretches what is left of these: ``max w (1 + (LEVEL − distance) / FADE)``."""
-    most = width.copy()
-    for distance, other in _along(runs, LEVEL + FADE):
-        np.maximum(most, width[other] * min(1.0, 1.0 + (LEVEL - distance) / FADE), out=most)
-    return most
+
+    def heaviest(block: slice) -> Floats:
+        most = width[runs.start[block.start] : runs.start[block.stop]].copy()
+        for distance, other in _along(runs, block, LEVEL + FADE):
+            np.maximum(most, width[other] * min(1.0, 1.0 + (LEVEL - distance) / FADE), out=most)
+        return most
+
+    return _by_blocks(runs, heaviest)
 
 
 def _largest(values: Floats, runs: HorizonRuns, reach: float) -> Floats:
     """The largest value within ``reach`` ångström along each run."""
-    most = values.copy()
-    for _, other in _along(runs, reach):
-        np.maximum(most, values[other], out=most)
-    return most
+
+    def largest(block: slice) -> Floats:
+        most = values[runs.start[block.start] : runs.start[block.stop]].copy()
+        for _, other in _along(runs, block, reach):
+            np.maximum(most, values[other], out=most)
+        return most
+
+    return _by_blocks(runs, largest)
 
 
 def _dark_share(due: Bools, runs: HorizonRuns) -> Floats:
@@ -204,8 +232,7 @@ def _last_vertices(width: Floats, runs: HorizonRuns, end: int) -> tuple[Ints, Fl
     distance = np.abs(end * last[run] - place) * (runs.length() / last)[run]
     partner = vertices.on_other_run(inner)
     meets = (partner >= 0) & (at_places(width, runs, vertices.run[partner], vertices.place[partner]) > 0)
-    later = np.where(meets & (distance < CORNER), 0.0, distance.max(initial=0.0))
-    order = ordered(run, -distance - later)
+    order = ordered(2 * run + (meets & (distance < CORNER)), -distance)
     row, away = runs.ends[end].copy(), np.full(len(last), np.inf)
     row[run[order]], away[run[order]] = inner[order], distance[order]  # the last one written is the nearest
     return row, away
@@ -227,11 +254,10 @@ def widest_other(width: Floats, runs: HorizonRuns, row: Ints) -> Floats:
     """Return the width of the widest line at the nodes of the given vertices' rows (q,), their own runs left out."""
     vertices = runs.vertices
     here = at_places(width, runs, vertices.run, vertices.place)
-    order = np.argsort(here, kind="stable")
-    best, second = np.full(len(here), -1), np.zeros(len(here))
-    best[vertices.node[order]] = vertices.run[order]  # by node; the last one written is the widest
-    widest = np.zeros(len(here))
+    best, second, widest = np.full(len(here), -1), np.zeros(len(here)), np.zeros(len(here))
     np.maximum.at(widest, vertices.node, here)
+    rows = np.flatnonzero(here == widest[vertices.node])
+    best[vertices.node[rows]] = vertices.run[rows]  # by node; the last one written, where two are the widest
     other = np.flatnonzero(vertices.run != best[vertices.node])
     np.maximum.at(second, vertices.node[other], here[other])
     node = vertices.node[row]

@@ -61,7 +61,7 @@ def _hung_from(spheres: Spheres, jumps: Floats, view: View, step: ShadeStep) -> 
     """The spheres whose skirts can be seen: those with something deeper than the drop behind their edges."""
     drop = drop_at_edge(spheres.radius, step.reach, step.low)
     rows = np.flatnonzero((drop > 0) & (jumps > drop))
-    if step.reach <= LEDGE_FROM:
+    if step.reach <= LEDGE_FROM or not len(rows):
         return rows
     projection = projection_of(view)
     page, height = projection.page_points(spheres.center), projection.nearness(spheres.center)

@@ -70,11 +70,12 @@ class Bounds(NamedTuple):
 
 def _square_distances(point: Floats, begin: Floats, end: Floats) -> Floats:
     """The squares of the distances (p,) of points from straight lines between two points, all (p, 2)."""
-    along, toward = end - begin, point - begin
-    square = dot(along, along)
-    share = np.divide(dot(toward, along), square, out=np.zeros_like(square), where=square > 0)
-    apart = toward - np.clip(share, 0.0, 1.0)[:, None] * along
-    return dot(apart, apart)
+    x, y = point[:, 0] - begin[:, 0], point[:, 1] - begin[:, 1]
+    along_x, along_y = end[:, 0] - begin[:, 0], end[:, 1] - begin[:, 1]
+    square = along_x**2 + along_y**2
+    share = np.divide(x * along_x + y * along_y, square, out=np.zeros_like(square), where=square > 0)
+    share = np.clip(share, 0.0, 1.0)
+    return np.asarray((x - share * along_x) ** 2 + (y - share * along_y) ** 2)
 
 
 def _cross(a: Floats, b: Floats, c: Floats, d: Floats) -> Bools:

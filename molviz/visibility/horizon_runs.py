@@ -7,11 +7,13 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.geometry.components import component_labels
-from molviz.geometry.rows import expand, offsets
+from molviz.geometry.rows import blocks, expand, offsets, ordered
+from molviz.threads import both, in_threads
 from molviz.vectors import dot
 from molviz.visibility.curves import LINE
 from molviz.visibility.eye import occluders_of, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
+from molviz.visibility.occlusion import BLOCK_ROWS
 from molviz.visibility.solids import Solids
 from molviz.visibility.view import View
 
@@ -94,7 +96,6 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     start = offsets(np.repeat(np.arange(len(first)), count), len(first))
     run = np.repeat(np.arange(len(first)), last - first + 1)
     places = _places(sweep, run, first, (count - 1) / arcs.sweep)
-    vertices = _vertices(np.append(origin, target), np.tile(run, 2), places.ravel(), length, count - 1)
     run_of_arc, place_of_arc = np.full(len(curve_arcs.curve), -1), np.zeros((2, len(curve_arcs.curve)))
     run_of_arc[row], place_of_arc[:, row] = run, places
     owner, place = expand(np.zeros_like(count), count)
@@ -105,7 +106,11 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     behind = _behind_at(view_map.right[row], sweep, first, last, owner, beside)
     t = arcs.start[owner] + offset
     near = _nearness(view_map, view, row[first], row[last], line[first], owner, place / (count[owner] - 1))
-    jump = _jumps(view_map, view, near, owner_of[solid[owner]], behind, arcs.take(owner).at(t))
+    vertices, surface = both(
+        lambda: _vertices(np.append(origin, target), np.tile(run, 2), places.ravel(), length, count - 1),
+        lambda: _surfaces(view_map, view, behind, arcs, owner, t), len(owner) > BLOCK_ROWS,
+    )  # fmt: skip
+    jump = _jumps(view_map, near, owner_of[solid[owner]], behind, surface)
     closed = origin[first] == target[last]
     sphere, behind = owner_of[solid], owner_of[behind]
     return HorizonRuns(
@@ -155,7 +160,7 @@ def _places(sweep: Floats, run: Ints, first: Ints, samples: Floats) -> Floats:
 def _vertices(vertex: Ints, run: Ints, place: Floats, length: Floats, last: Ints) -> tuple[Vertices, Ints]:
     """The table of the starts of all arcs, followed by their ends, and the rows of the runs' own starts and ends."""
     place = np.minimum(place, last[run])
-    along = np.lexsort((place, run))
+    along = ordered(run, place)
     near = np.diff(place[along]) * (length / last)[run[along][1:]] < NODE
     near &= run[along][1:] == run[along][:-1]
     same = np.argsort(vertex, kind="stable")
@@ -186,9 +191,18 @@ def _behind_at(right: Ints, sweep: Floats, first: Ints, last: Ints, owner: Ints,
     return right[np.clip(place, first[owner], last[owner])]
 
 
-def _jumps(view_map: VisibilityMap, view: View, near: Floats, own: Ints, behind: Ints, page: Floats) -> Floats:
-    solids = Solids(occluders_of(view_map.spheres, view), view_map.sticks)
-    surface, _ = solids.surfaces(solids.rows(np.maximum(behind, 0)), page, projection_of(view))
+def _surfaces(view_map: VisibilityMap, view: View, behind: Ints, arcs: PlaneArcs, owner: Ints, t: Floats) -> Floats:
+    """How near the solids behind samples (s,) are there, in blocks, shared by threads; of BACKGROUND any number."""
+    solids, projection = Solids(occluders_of(view_map.spheres, view), view_map.sticks), projection_of(view)
+    row = solids.rows(np.maximum(behind, 0))
+
+    def surfaces_in(block: slice) -> Floats:
+        return solids.surfaces(row[block], arcs.take(owner[block]).at(t[block]), projection)[0]
+
+    return np.concatenate([*in_threads(surfaces_in, blocks(np.ones_like(row), BLOCK_ROWS)), np.empty(0)])
+
+
+def _jumps(view_map: VisibilityMap, near: Floats, own: Ints, behind: Ints, surface: Floats) -> Floats:
     jump = np.maximum(near - surface, 0.0)  # rounding beside a silhouette of the surface: −∞
     own_radius = view_map.spheres.radius[own]
     return np.where(behind == BACKGROUND, np.inf, np.where(np.isfinite(jump), jump, own_radius))

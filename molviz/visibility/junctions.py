@@ -7,10 +7,11 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
-from molviz.geometry.rows import expand
+from molviz.geometry.rows import expand, ordered
+from molviz.threads import both
 from molviz.vectors import dot
 from molviz.visibility.curves import HORIZON, Curves
-from molviz.visibility.named_arcs import NamedArcs, vertex_numbers
+from molviz.visibility.named_arcs import MANY, NamedArcs, vertex_numbers
 from molviz.visibility.names import EDGE, ELBOW, ENTRY, HALF, TEE, WHOLE
 from molviz.visibility.solids import Solids
 
@@ -47,10 +48,11 @@ def split_at_junctions(named: NamedArcs, curves: Curves, solids: Solids, central
     junction lies on no visible contour.
     """
     origin, target = vertex_numbers(named.origin, named.target)
-    tees = [
-        _junctions(named, curves, solids, central, name, vertex, fraction)
-        for name, vertex, fraction in ((named.origin, origin, 0.0), (named.target, target, 1.0))
-    ]
+    tees = both(
+        lambda: _junctions(named, curves, solids, central, named.origin, origin, 0.0),
+        lambda: _junctions(named, curves, solids, central, named.target, target, 1.0),
+        len(named.curve) > MANY,
+    )
     junctions = _Junctions(*(np.concatenate(column) for column in zip(*tees, strict=True)))
     entered = np.full(int(max(origin.max(initial=-1), target.max(initial=-1))) + 1, -1)
     for name, vertex in ((named.origin, origin), (named.target, target)):
@@ -112,7 +114,7 @@ def _located(named: NamedArcs, curve: Ints, angle: Floats, snap: Floats) -> tupl
     offset = np.mod(angle[row] - named.start[arc], TURN)
     sweep = named.sweep[arc]
     outside = np.where(offset <= sweep, 0.0, np.minimum(offset - sweep, TURN - offset))
-    order = np.lexsort((-outside, row))
+    order = ordered(row, -outside)
     best = np.full(len(curve), -1)
     best[row[order]] = order  # the last one written is the closest
     if np.any(best < 0) or np.any(outside[best] > snap):
@@ -137,7 +139,7 @@ def _split(named: NamedArcs, origin: Ints, target: Ints, tees: _Junctions) -> Cu
     offset = np.concatenate([np.zeros(len(begins)), tees.offset, end])
     vertex = np.concatenate([origin[begins], tees.vertex, np.where(opened, first_vertex, target)])
     place = np.repeat([0, 1, 2], [len(begins), len(tees.arc), count])
-    order = np.lexsort((offset, place, arc))
+    order = ordered(3 * arc + place, offset)
     arc, offset, vertex = arc[order], offset[order], vertex[order]
     piece = np.flatnonzero(arc[1:] == arc[:-1])
     return CurveArcs(

@@ -39,8 +39,7 @@ def slivers(view_map: VisibilityMap) -> Bools:
     """Return which loops enclose less than ``SLIVER`` times their half length; less in scenes below ``SMALL``."""
     thinnest = SLIVER * min(1.0, float(view_map.spheres.radius.max(initial=0.0)) / SMALL)
     row = view_map.loops.half_edge >> 1
-    arcs = view_map.arcs.take(row)
-    half = np.add.reduceat(arcs.lengths(), view_map.loops.start[:-1]) / 2 if len(row) else np.empty(0)
+    half = np.add.reduceat(view_map.arcs.lengths()[row], view_map.loops.start[:-1]) / 2 if len(row) else np.empty(0)
     return np.asarray(np.abs(loop_areas(view_map.arcs, view_map.loops)) < thinnest * half)
 
 

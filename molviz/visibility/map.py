@@ -26,13 +26,7 @@ from molviz.visibility.settle import settle_ends
 from molviz.visibility.solids import BACKGROUND as BACKGROUND
 from molviz.visibility.solids import Solids
 from molviz.visibility.stick_curves import caps_on_horizons, halving, hidden_of_own, stick_curves
-from molviz.visibility.stick_occlusion import (
-    hidden_by_spheres,
-    hidden_by_sticks,
-    sticks_before,
-    sticks_before_spheres,
-    within_bounds,
-)
+from molviz.visibility.stick_occlusion import hidden_by_sticks, hidden_of_stick_curves
 from molviz.visibility.view import View
 
 
@@ -155,15 +149,13 @@ def _with_sticks(
     start = len(plain.first)
     curves = plain.followed_by(of.curves)
     own = caps_on_horizons(sticks, spheres, horizons, of, count)
-    behind = sticks_before_spheres(sticks, plain.first, plain.second, near, count)
-    reached = within_bounds(of, near, bounds, projection, count)
-    own_behind = sticks_before(sticks, of, *reached, count)
+    by_spheres, by_sticks = hidden_of_stick_curves(solids, of, near, bounds, projection, start)
     return curves, [
         own._replace(curve=own.curve + len(creases.first)),
         *hidden_of_own(sticks, spheres, of, start),
-        *hidden_by_spheres(spheres, sticks, of, *reached, start),
-        *hidden_by_sticks(sticks, curves, *behind, count),
-        *hidden_by_sticks(sticks, curves, own_behind[0] + start, own_behind[1], count),
+        *by_spheres,
+        *hidden_by_sticks(sticks, plain, near, count),
+        *by_sticks,
     ]
 
 

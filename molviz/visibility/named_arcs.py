@@ -23,9 +23,12 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.geometry.intervals import Intervals, gaps
+from molviz.threads import both
 from molviz.visibility.curves import Curves
 from molviz.visibility.names import BALL, ENTRY, OWN, TEE, TRIPLE, WHOLE, named
 from molviz.visibility.stick_names import name_stick_ends
+
+MANY = 20_000  # arcs, from which on both of their ends are worth a thread
 
 
 class Hidden(NamedTuple):
@@ -73,8 +76,11 @@ def visible_arcs(curves: Curves, instance_curve: Ints, hidden: Hidden, spheres: 
     free = gaps(Intervals(hidden.curve, hidden.start, hidden.sweep), len(instance_curve))
     curve = instance_curve[free.circle]
     number = np.arange(len(curve))
-    origin = _names(curves, curve, number, hidden.reason, hidden.leaves, free.before, 1, spheres)
-    target = _names(curves, curve, number, hidden.reason, hidden.enters, free.after, 0, spheres)
+    origin, target = both(
+        lambda: _names(curves, curve, number, hidden.reason, hidden.leaves, free.before, 1, spheres),
+        lambda: _names(curves, curve, number, hidden.reason, hidden.enters, free.after, 0, spheres),
+        len(curve) > MANY,
+    )
     return NamedArcs(curve, free.start, free.sweep, free.circle, origin, target)
 
 

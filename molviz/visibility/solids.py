@@ -6,7 +6,7 @@ import numpy as np
 
 from molviz.arrays import Floats, Ints
 from molviz.geometry.grid import Neighbours
-from molviz.geometry.rows import blocks, expand
+from molviz.geometry.rows import blocks, expand, ordered
 from molviz.model.spheres import Spheres
 from molviz.threads import in_threads
 from molviz.vectors import dot
@@ -124,7 +124,7 @@ class Solids(NamedTuple):
             row, item = row[inside], item[inside]
             surface, solid = self.surfaces(item, at.take(row, axis=0), projection)
             rows = np.flatnonzero(surface > -np.inf)
-            rows = rows[np.lexsort((surface[rows], row[rows]))]
+            rows = rows[ordered(row[rows], surface[rows])]
             found = np.full(len(at), BACKGROUND)
             found[row[rows]] = solid[rows]  # ascending: the last one written is the nearest
             return found

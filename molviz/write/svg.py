@@ -108,15 +108,15 @@ class Elements:
     def __init__(self, drawing: Drawing) -> None:
         self.drawing = drawing
         self.leaves = Leaves()
-        self.taken: Counter[str] = Counter()
+        self.taken: dict[str, int] = {}
         self.rules: dict[str, str] = {}  # style rule → name of the class that stands for it
         self.servers: dict[Gradient, str] = {}  # gradient → its id
 
     def fresh_id(self, wish: str) -> str:
         """Return a valid id like ``wish`` that this drawing does not have yet."""
         word = token(wish)
-        self.taken[word] += 1
-        return word if self.taken[word] == 1 else self.fresh_id(f"{word}-{self.taken[word]}")
+        times = self.taken[word] = self.taken.get(word, 0) + 1
+        return word if times == 1 else self.fresh_id(f"{word}-{times}")
 
     def own_id(self, wish: str) -> str:
         """Return the same for what only references find, apart from the ids of other drawings too."""

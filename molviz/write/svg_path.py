@@ -34,6 +34,10 @@ class Commands(NamedTuple):
     large: Bools  # (k,)
     positive: Bools  # (k,) the sweep flag
 
+    def take(self, rows: Ints) -> "Commands":
+        """Return the given rows, in that order."""
+        return Commands(*(column[rows] for column in self))  # type: ignore[arg-type]
+
 
 def y_down(arcs: PlaneArcs, height: float) -> PlaneArcs:
     """Return the arcs in SVG's coordinates, whose y runs down from the top of the page."""
@@ -56,15 +60,24 @@ def rounded_radii(axes: AxisArcs, straight: Bools) -> Floats:
     return np.asarray(np.where(straight[:, None], 0.0, steps / 100))
 
 
-def commands(paths: Paths, straight: Bools) -> Commands:
-    """Return the commands for arcs as they are, rounded."""
-    axes, (start, end) = on_axes(paths.arcs), starts_and_ends(paths)
+def commands(paths: Paths, straight: Bools, known: Commands | None = None, fresh: Ints | None = None) -> Commands:
+    """Return the commands for arcs as they are, rounded; of all but the ``fresh`` arcs they are ``known`` already."""
+    start, end = (np.round(points, 2) for points in starts_and_ends(paths))
+    if known is None or fresh is None:
+        return Commands(start, end, *_ellipses(paths.arcs, straight))
+    for column, values in zip(known[2:], _ellipses(paths.arcs.take(fresh), straight[fresh]), strict=True):
+        column[fresh] = values
+    return known._replace(start=start, end=end)
+
+
+def _ellipses(arcs: PlaneArcs, straight: Bools) -> tuple[Floats, Floats, Bools, Bools]:
+    """The commands less their ends: radii, rotations and both flags."""
+    axes = on_axes(arcs)
     radius = rounded_radii(axes, straight)
     eccentric = radius[:, 0] - radius[:, 1]
     places = np.where(eccentric < 5, 10.0, 100.0)  # 0.05° on 5 points moves nothing by a hundredth
     rotation = np.where(eccentric == 0, 0.0, np.rint(np.degrees(axes.rotation) * places) / places)
-    large = np.abs(axes.sweep) > np.pi + HALF_TURN
-    return Commands(np.round(start, 2), np.round(end, 2), radius, rotation, large, axes.sweep > 0)
+    return radius, rotation, np.abs(axes.sweep) > np.pi + HALF_TURN, axes.sweep > 0
 
 
 def drawn_middle(command: Commands) -> Floats:
@@ -122,17 +135,24 @@ def settled(paths: Paths) -> tuple[Paths, Bools, Commands]:
     """
     paths, straight = with_straight_pieces(from_vertices(paths))
     straight |= flat(paths.arcs)
+    command, fresh = commands(paths, straight), np.arange(len(straight))
     for _ in range(CUTS):
-        command, arcs = commands(paths, straight), paths.arcs
-        middle = arcs.at(arcs.middle())
-        allowed = np.where(is_half(arcs.sweep), 2 * STRAY, STRAY)  # all that is wrong with a half is its radii
-        stray = (np.hypot(*(drawn_middle(command) - middle).T) > allowed) & ~straight
-        if not stray.any():
-            return paths, straight, command
-        count = np.where(stray, 2, 1)
-        paths, straight = in_equal_pieces(paths, count), np.repeat(straight, count)
-        straight |= flat(paths.arcs)
-    return paths, straight, commands(paths, straight)
+        astray = fresh[_strays(command.take(fresh), paths.arcs.take(fresh)) & ~straight[fresh]]
+        if not len(astray):
+            break
+        count = np.ones(len(straight), dtype=np.int64)
+        count[astray] = 2
+        paths, owner = in_equal_pieces(paths, count), np.repeat(np.arange(len(count)), count)
+        fresh, straight = np.flatnonzero(count[owner] == 2), straight[owner]
+        straight[fresh] |= flat(paths.arcs.take(fresh))
+        command = commands(paths, straight, command.take(owner), fresh)
+    return paths, straight, command
+
+
+def _strays(command: Commands, arcs: PlaneArcs) -> Bools:
+    """Whether the middles of arcs (k,) are drawn too far from where they are."""
+    allowed = np.where(is_half(arcs.sweep), 2 * STRAY, STRAY)  # all that is wrong with a half is its radii
+    return np.asarray(np.hypot(*(drawn_middle(command) - arcs.at(arcs.middle())).T) > allowed)
 
 
 def joined(steps: Ints, first: bool | Bools) -> Words:

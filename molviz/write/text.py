@@ -5,6 +5,7 @@ import unicodedata
 from functools import cache
 
 PLAIN = {"′": "'", "″": "''", "’": "'", "‘": "'", "“": '"', "”": '"', "–": "-", "—": "-", "−": "-", "×": "x", "·": "."}
+NOT_A_NAME, NAME_START = re.compile("[^A-Za-z0-9_.-]"), re.compile("[A-Za-z_]")
 NOT_XML = "[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
 
@@ -48,5 +49,5 @@ def _plainly(character: str) -> str:
 @cache
 def token(text: str) -> str:
     """Return a text as an XML name that is safe as an id and as a CSS class."""
-    word = re.sub("[^A-Za-z0-9_.-]", "_", text)
-    return word if re.match("[A-Za-z_]", word) else f"_{word}"
+    word = NOT_A_NAME.sub("_", text)
+    return word if NAME_START.match(word) else f"_{word}"

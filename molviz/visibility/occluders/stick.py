@@ -65,6 +65,14 @@ class StickOccluders(NamedTuple):
         plane, at = self.planes.reshape(-1, 3).take(row, axis=0), self.at.ravel().take(row)
         return plane_function(curves, curve, self.start.take(stick, axis=0), plane, at)
 
+    def all_behind(self, curves: Curves, curve: Ints, stick: Ints) -> Linear:
+        """Return the same for all five conditions, each a row of functions on the m curves: columns are (5, m)."""
+        planes = np.ascontiguousarray(self.planes.take(stick, axis=0).transpose(2, 1, 0))  # x, y and z of the five
+        center, a, b = (column.take(curve, axis=0) for column in curves[3:])
+        m = center - self.start.take(stick, axis=0)
+        on_a, on_b, on_m = (planes[0] * v[:, 0] + planes[1] * v[:, 1] + planes[2] * v[:, 2] for v in (a, b, m))
+        return Linear(on_a, on_b, on_m - self.at.take(stick, axis=0).T)
+
     def hits(self, stick: Ints, origin: Floats, ray: Floats) -> tuple[Floats, Bools]:
         """Return how far along unit rays (m, 3) from points (m, 3) sticks are hit, and whether beyond their middles.
 
