@@ -170,6 +170,20 @@ def test_a_cluster_gives_the_same(inputs: list[str]) -> None:
     assert three.stdout == run("measure", *inputs, "--json").stdout
 
 
+def test_a_cluster_hides_the_lines_of_discs_band_by_band(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.chdir(tmp_path)
+    scenes = {"random": ("--random", "2000", "--seed", "3"), "discs": (str(CAFFEINE), "--as", "discs")}
+    for name, words in scenes.items():
+        assert run("hidden-lines", *words, "-o", f"{name}.ps").exit_code == 0
+    monkeypatch.setattr("molviz.discs.bands.BAND_DISCS", 7)
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        for name, words in scenes.items():
+            address = cluster.scheduler_address
+            assert run("hidden-lines", *words, "-o", f"{name}_there.ps", "--dask", address).exit_code == 0
+            assert Path(f"{name}_there.ps").read_bytes() == Path(f"{name}.ps").read_bytes()
+
+
 def test_no_cluster_is_a_wrong_option(inputs: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("molviz.cli.pool.SECONDS", 1)
     result = run("info", *inputs, "--dask", "tcp://127.0.0.1:9")

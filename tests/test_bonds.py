@@ -90,6 +90,11 @@ def test_clashes_and_unknown_elements_make_none() -> None:
     assert by_distance("C 0 0 0", "C 1.2 0 0") == [(0, 1)]
 
 
+def test_of_elements_that_share_a_site_the_first_has_the_bonds() -> None:
+    """As aluminium and silicon in zeolites do."""
+    assert by_distance("Si 0 0 0", "Al 0 0 0", "O 1.6 0 0", "O 1.6 0 0", "Si 3.2 0 0", "Al 3.2 0 0") == [(0, 2), (2, 4)]
+
+
 def test_metals_coordinate() -> None:
     assert by_distance("Zn 0 0 0", "S 2.35 0 0", "N 0 2.1 0") == [(0, 1), (0, 2)]
     carboxylate = ("Ca 0 0 0", "C 2.8 0 0", "O 2.1 1.1 0", "O 2.1 -1.1 0")

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from molviz.discs.grid import cell_lists
 from molviz.discs.regions import DiscRegions, visible_regions
 from molviz.model.scenes import random_scene, text_scene
 from molviz.model.spheres import Spheres
@@ -121,5 +122,5 @@ def test_aligned_layers_still_close() -> None:
 
 def test_order_of_the_arcs_of_general_scenes_needs_no_displacement() -> None:
     scene = hide_discs(random_scene(2000, depth=6))
-    found = visible_regions(scene.spheres, scene.grid, scene.lists, scene.arcs)
+    found = visible_regions(scene.spheres, scene.grid, cell_lists(scene.spheres, scene.grid), scene.arcs)
     assert set(scene.arcs.circle.tolist()) <= set(found.disc.tolist())

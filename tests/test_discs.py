@@ -4,9 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from molviz.discs.arcs import visible_perimeters
-from molviz.discs.grid import UNIT_SQUARE, Grid, bounding_square, cell_lists, franklin_count
+from molviz.discs import bands
+from molviz.discs.bands import visible_perimeters
+from molviz.discs.grid import UNIT_SQUARE, Grid, bounding_square, franklin_count
 from molviz.geometry.circles import CircleArcs
 from molviz.model.scenes import random_scene, text_scene
 from molviz.model.spheres import Spheres
@@ -18,7 +21,7 @@ EQUAL = 1e-9  # radians
 
 def arcs_on(scene: Spheres, count: int) -> CircleArcs:
     grid = Grid(bounding_square(scene), count)
-    return visible_perimeters(scene, grid, cell_lists(scene, grid))[0]
+    return visible_perimeters(scene, grid)[0]
 
 
 def assert_equal(arcs: CircleArcs, expected: list[list[tuple[float, float]]]) -> None:
@@ -73,7 +76,7 @@ def test_ends_name_the_discs_that_hide_beyond_them() -> None:
 def test_franklins_own_run() -> None:
     """N = 10,000, R = 0.0178, G = 142: the figures of his Fig. 8, within the spread of random scenes."""
     scene, grid = random_scene(10000, radius=0.0178), Grid(UNIT_SQUARE, 142)
-    arcs, work = visible_perimeters(scene, grid, cell_lists(scene, grid))
+    arcs, work = visible_perimeters(scene, grid)
     pieces = np.bincount(arcs.circle, minlength=10000)
     whole = np.count_nonzero(arcs.before < 0)
     assert work.cells_blocked == pytest.approx(19337, rel=0.05)
@@ -102,3 +105,23 @@ def test_a_word_of_tangent_spheres_equals_brute_force() -> None:
 
 def test_one_disc_far_from_the_origin() -> None:
     assert arcs_on(scene_of([(1e6, -1e6, 0, 1)]), 8).sweep.tolist() == [2 * math.pi]
+
+
+@given(st.integers(0, 10**6), st.integers(1, 60), st.integers(1, 9), st.integers(1, 12), st.booleans())
+@settings(max_examples=60)
+def test_bands_give_the_arcs_and_the_work_of_the_whole(
+    seed: int, count: int, band: int, across: int, on_lines: bool
+) -> None:
+    random = np.random.default_rng(seed)
+    center, radius = random.random((count, 3)), random.uniform(0.01, 0.3, count)
+    if on_lines:  # discs that touch rows of cells and each other, and lie one on another
+        center, radius = np.round(center * across) / across, np.ceil(radius * across) / across
+    scene = Spheres(center, radius)
+    grid = Grid(bounding_square(scene), across)
+    whole = visible_perimeters(scene, grid)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bands, "BAND_DISCS", band)
+        parts = visible_perimeters(scene, grid)
+    assert whole[1] == parts[1]
+    for one, other in zip(whole[0], parts[0], strict=True):
+        assert np.array_equal(one, other)

@@ -11,6 +11,7 @@ from molviz.cli import main
 from molviz.errors import InputError
 from molviz.geometry.solids import LONGEST, MOST_STICKS, BallsAndSticks, solids_of
 from molviz.model.bonds import Bonds
+from molviz.model.molecule import Molecule
 from molviz.model.representations import BALL_AND_STICK, REPRESENTATIONS, SPACEFILL, STICKS, USUAL, Sizes
 from molviz.model.spheres import Spheres
 from molviz.pipeline.inputs import loaded_from
@@ -294,6 +295,14 @@ def test_what_is_hidden_is_not_drawn_and_does_not_turn_the_picture() -> None:
     assert molviz.draw(CAFFEINE, rep="within 1.2 of element H=hide", bonds="none").atoms_drawn == 10
     with pytest.raises(InputError, match="all atoms are hidden"):
         molviz.draw(CAFFEINE, rep="hide")
+
+
+def test_of_elements_that_share_a_site_the_first_has_the_ball_that_sticks_lead_to() -> None:
+    center = np.array([[0, 0, 0], [0, 0, 0], [1.6, 0, 0], [3.2, 0, 0], [3.2, 0, 0]], dtype=float)
+    site = Molecule.of("zeolite", center, np.array(["Si", "Al", "O", "Si", "Al"]))
+    for name, drawn in (("sticks", 3), ("ball-and-stick", 3), ("spacefill", 5)):
+        scene = molviz.Scene(site, rep=name)
+        assert len(scene.spheres.radius) == drawn and len(scene.sticks.radius) == (2 if drawn == 3 else 0)
 
 
 def test_a_scene_has_balls_and_sticks() -> None:

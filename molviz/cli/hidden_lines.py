@@ -1,7 +1,8 @@
 """``molviz hidden-lines``: exact visible arcs, and nothing but lines unless asked for."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -17,11 +18,12 @@ from molviz.cli.draw import (
     run_drawings,
     suffix_of,
 )
-from molviz.cli.options import POSITIVE, applied, input_options, load_and_warn
+from molviz.cli.options import POSITIVE, applied, cluster_option, input_options, load_and_warn
 from molviz.cli.progress import Progress
 from molviz.cli.telling import say, tell_json
 from molviz.picture.disc_picture import WIDTH, DiscLook
 from molviz.pipeline.hidden_discs import (
+    Each,
     HiddenDiscs,
     drawn,
     lettered_discs,
@@ -59,6 +61,7 @@ scene_options = applied(
     "--as", "kind", type=click.Choice(KINDS), default="fused", show_default=True, help="A molecule's atoms as these."
 )
 @plotter_options
+@cluster_option
 @input_options
 def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
     """Remove the hidden lines of spheres and sticks, exactly. Formats: .ps .eps .svg .svgz .pdf .hpgl .json.
@@ -81,13 +84,27 @@ def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
     if options["style"] == "auto":
         options["style"] = "flat"
     if not inputs:
-        _discs(options["output"], partial(_scene, options), options)
+        with _workers(options["dask"]) as each:
+            _discs(options["output"], partial(_scene, options, each), options)
     elif options["kind"] == "discs":
-        _molecules_as_discs(inputs, options)
+        with _workers(options["dask"]) as each:
+            _molecules_as_discs(inputs, options, each)
     elif options["as_json"]:
         raise click.UsageError("--json tells the statistics of discs; expected --as discs, --random or --text")
     else:
-        run_drawings(inputs, {"jobs": 1, "dask": None} | options)
+        run_drawings(inputs, {"jobs": 1} | options)
+
+
+@contextmanager
+def _workers(address: str | None) -> Iterator[Each]:
+    """What does the bands of a large scene: this process, or a cluster."""
+    if address is None:
+        yield map
+        return
+    from molviz.cli.pool import shared_by_dask  # here: rarely asked for, and long to import
+
+    with shared_by_dask(address) as each:
+        yield each
 
 
 def _refuse_solid(options: dict[str, Any]) -> None:
@@ -97,7 +114,7 @@ def _refuse_solid(options: dict[str, Any]) -> None:
             raise click.UsageError(f"discs lie flat; expected --{name} with fused spheres only")
 
 
-def _molecules_as_discs(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
+def _molecules_as_discs(inputs: tuple[str, ...], options: dict[str, Any], each: Each) -> None:
     wanted, eye, output = input_options_from(options), view_options_from(options), options["output"]
     suffix = suffix_of(output, options["to"]) if output else ""
     if output:
@@ -105,7 +122,7 @@ def _molecules_as_discs(inputs: tuple[str, ...], options: dict[str, Any]) -> Non
 
     def one(source: str) -> None:
         target = target_of(source, output, suffix) if output else None
-        _discs(target, partial(_molecule, source, wanted, eye, options), options)
+        _discs(target, partial(_molecule, source, wanted, eye, options, each), options)
 
     for_each(inputs, one, lambda _: None, quiet=options["quiet"])
 
@@ -139,18 +156,22 @@ def _look(options: dict[str, Any]) -> DiscLook:
     return DiscLook(page, outline, background=options["background"])
 
 
-def _scene(options: dict[str, Any]) -> HiddenDiscs:
+def _scene(options: dict[str, Any], each: Each) -> HiddenDiscs:
     """The scene that the options ask for, without its hidden lines."""
     shrink, across = options["shrink"], options["grid"]
     if options["text"] is not None:
         return lettered_discs(options["text"], shrink=shrink, across=across)
     depth, radius, seed = options["depth"], options["radius"], options["seed"]
-    return random_discs(options["count"], depth=depth, radius=radius, seed=seed, shrink=shrink, across=across)
+    return random_discs(
+        options["count"], depth=depth, radius=radius, seed=seed, shrink=shrink, across=across, each=each
+    )
 
 
-def _molecule(source: str, wanted: InputOptions, eye: ViewOptions, options: dict[str, Any]) -> HiddenDiscs:
+def _molecule(
+    source: str, wanted: InputOptions, eye: ViewOptions, options: dict[str, Any], each: Each
+) -> HiddenDiscs:
     loaded = load_and_warn(source, wanted, options["quiet"], options["strict"])
-    return molecule_discs(only_model(loaded), eye, options["grid"])
+    return molecule_discs(only_model(loaded), eye, options["grid"], each)
 
 
 def _summary(target: str, scene: HiddenDiscs, size: int, seconds: float) -> str:

@@ -117,11 +117,14 @@ def input_options_with(probe: Decorator) -> Decorator:
 
 
 input_options = input_options_with(shared("probe", type=NOT_NEGATIVE, metavar="R", help="Add to all radii, in Å."))
+cluster_option = click.option(
+    "--dask", metavar="ADDRESS", help="Let a Dask cluster do the work (pip install 'molviz[dask]')."
+)
 batch_options = applied(
     click.option(
         "-j", "--jobs", type=click.IntRange(0), default=1, metavar="N", help="So many inputs at once; 0: all cores."
     ),
-    click.option("--dask", metavar="ADDRESS", help="Let a Dask cluster do the work (pip install 'molviz[dask]')."),
+    cluster_option,
 )
 eye_options = applied(
     shared(

@@ -3,21 +3,25 @@
 import multiprocessing
 import os
 import signal
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
+from molviz import threads
 from molviz.cli import failures
 from molviz.cli.batch import STANDARD_INPUT, Outcome, Where, Work
-from molviz.errors import OptionError
+from molviz.errors import InputError, OptionError
 
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 SECONDS = 30  # in which a scheduler answers
 
 Attempt = Callable[..., Outcome]
+T = TypeVar("T")
+R = TypeVar("R")
 
 
 def outcomes(sources: Sequence[str], work: Work, where: Where, attempt: Attempt) -> Iterator[Outcome]:
@@ -106,6 +110,42 @@ def _by_dask(sources: Sequence[str], job: Callable[..., Outcome], address: str) 
             yield _outcome_of(source, future)
     finally:
         client.close()
+
+
+@contextmanager
+def shared_by_dask(address: str) -> Iterator[Callable[[Callable[[T], R], Iterable[T]], Iterator[R]]]:
+    """Yield what does as ``map`` does, by the workers of a cluster; few parts are under way at a time.
+
+    Raises InputError where the cluster cannot do one.
+    """
+    client = _client(address)
+
+    def each(work: Callable[[T], R], parts: Iterable[T]) -> Iterator[R]:
+        under_way: deque[Any] = deque()
+        for part in parts:
+            under_way.append(client.submit(_by_one_thread, work, client.scatter(part), pure=False))
+            if len(under_way) > 2 * len(client.ncores()):
+                yield _result(under_way.popleft())
+        while under_way:
+            yield _result(under_way.popleft())
+
+    try:
+        yield each
+    finally:
+        client.close()
+
+
+def _by_one_thread(work: Callable[[T], R], part: T) -> R:
+    threads.use(1)
+    return work(part)
+
+
+def _result(future: Any) -> Any:
+    try:
+        return future.result()
+    except Exception as failure:
+        reason = " ".join(f"{type(failure).__name__}: {failure}".split())
+        raise InputError(f"the cluster could not do it ({reason})") from None
 
 
 def _client(address: str) -> Any:

@@ -38,40 +38,50 @@ class Pairs(NamedTuple):
     near: Ints  # (m,)
 
 
-def visible_perimeters(spheres: Spheres, grid: Grid, lists: CellLists) -> tuple[CircleArcs, Work]:
-    """Return the visible arcs of n ≥ 1 discs' perimeters and the work it took; ``lists`` are the grid's cells'.
+def arcs_on_lists(
+    spheres: Spheres, grid: Grid, lists: CellLists, own: Bools, cells: slice
+) -> tuple[CircleArcs, Work]:
+    """Return the visible arcs of the perimeters of ``own`` discs (n,), whose cells all have their lists.
 
     An arc's ``before`` and ``after`` are the discs that hide the perimeter beyond its ends; angles run
-    counter-clockwise from the x axis.
+    counter-clockwise from the x axis. The work is that of those discs, and of ``cells``.
 
     Steps 4 and 5 of Franklin's section 5. Every change between visible and hidden along a perimeter happens where
     a pair on a common cell list crosses, so each arc that such pairs leave is wholly visible or wholly hidden, and
     its midpoint decides. Arcs do not depend on the grid, but for rounding.
     """
-    pairs, tested = pairs_on_lists(spheres, lists)
-    visible, crossing, touching = [], 0, 0
-    for remaining, crossings, touches in _arcs_of_blocks(spheres, grid, lists, pairs):
+    pairs, tested = pairs_on_lists(spheres, lists, own, cells)
+    nobody = pairs.far[:0]
+    visible, crossing, touching = [_remaining_arcs(spheres, nobody, Pairs(nobody, nobody))[0]], 0, 0
+    for remaining, crossings, touches in _arcs_of_blocks(spheres, grid, lists, pairs, own):
         visible.append(remaining)
         crossing, touching = crossing + crossings, touching + touches
     columns = (np.concatenate(column) for column in zip(*visible, strict=True))
-    blocked = int(np.count_nonzero(lists.blocker != NOBODY))
-    return CircleArcs(*columns), Work(len(lists.item), blocked, tested, crossing, touching)
+    entries = int(lists.start[cells.stop] - lists.start[cells.start])
+    blocked = int(np.count_nonzero(lists.blocker[cells] != NOBODY))
+    return CircleArcs(*columns), Work(entries, blocked, tested, crossing, touching)
 
 
-def pairs_on_lists(spheres: Spheres, lists: CellLists) -> tuple[Pairs, int]:
-    """Return the pairs that meet on a cell list, and how often they meet (pairs with several common cells)."""
+def pairs_on_lists(spheres: Spheres, lists: CellLists, own: Bools, cells: slice) -> tuple[Pairs, int]:
+    """Return the pairs that meet on a cell list and whose farther disc is one of ``own``.
+
+    And how often any meet in ``cells``: pairs with several common cells do so several times.
+    """
     count = len(spheres.radius)
     end = np.repeat(lists.start[1:], np.diff(lists.start))
     after = np.arange(1, len(lists.item) + 1)
 
-    def keys_of(block: slice) -> tuple[int, Ints]:
+    def keys_of(block: slice) -> Ints:
         owner, place = expand(after[block], end[block])
         one, other = lists.item[block][owner], lists.item[place]
         ahead = nearer(spheres, one, other)
-        return len(one), _distinct(np.where(ahead, other, one) * count + np.where(ahead, one, other))
+        far, near = np.where(ahead, other, one), np.where(ahead, one, other)
+        mine = np.flatnonzero(own[far])
+        return _distinct(far[mine] * count + near[mine])
 
-    met, keys = zip((0, after[:0]), *in_threads(keys_of, blocks(end - after, BLOCK_ROWS)), strict=True)
-    return Pairs(*np.divmod(_distinct(np.concatenate(keys)), count)), sum(met)
+    keys = np.concatenate([after[:0], *in_threads(keys_of, blocks(end - after, BLOCK_ROWS))])
+    inside = slice(int(lists.start[cells.start]), int(lists.start[cells.stop]))
+    return Pairs(*np.divmod(_distinct(keys), count)), int(np.sum((end - after)[inside]))
 
 
 def _distinct(key: Ints) -> Ints:
@@ -82,12 +92,12 @@ def _distinct(key: Ints) -> Ints:
 
 
 def _arcs_of_blocks(
-    spheres: Spheres, grid: Grid, lists: CellLists, pairs: Pairs
+    spheres: Spheres, grid: Grid, lists: CellLists, pairs: Pairs, own: Bools
 ) -> list[tuple[CircleArcs, int, int]]:
-    """The visible arcs of every disc on some list, in blocks of discs; crossing and touching pairs."""
+    """The visible arcs of every own disc on some list, in blocks of discs; crossing and touching pairs."""
     listed = np.zeros(len(spheres.radius), dtype=bool)
     listed[lists.item] = True
-    disc = np.flatnonzero(listed)
+    disc = np.flatnonzero(listed & own)
     begin, end = np.searchsorted(pairs.far, disc), np.searchsorted(pairs.far, disc, side="right")
 
     def visible_in(block: slice) -> tuple[CircleArcs, int, int]:

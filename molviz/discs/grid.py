@@ -35,21 +35,35 @@ UNIT_SQUARE = Square(0.0, 0.0, 1.0)
 
 
 class Grid(NamedTuple):
-    """``across`` × ``across`` cells over a square; cell number = row × across + column, from the lower left."""
+    """``across`` × ``across`` cells over a square, or the window of its rows ``bottom`` … ``top`` − 1.
+
+    Cell number = row × across + column, from the lower left of the window.
+    """
 
     square: Square
     across: int
+    bottom: int = 0
+    top: int | None = None  # all rows from the bottom
 
     @property
     def cell(self) -> float:
         """The side of a cell."""
         return self.square.side / self.across
 
+    @property
+    def rows(self) -> range:
+        """The rows of the window."""
+        return range(self.bottom, self.across if self.top is None else self.top)
+
+    def row_at(self, y: Floats) -> Floats:
+        """Return the number of the row that each point lies in, the nearest row of the window for points outside."""
+        row = np.floor((y - self.square.y) / self.cell)
+        return np.clip(row, self.rows.start, self.rows.stop - 1, out=row)
+
     def cell_at(self, x: Floats, y: Floats) -> Ints:
-        """Return the number of the cell that each point lies in, the nearest cell for points outside."""
+        """Return the number of the cell that each point lies in, the nearest cell of the window for points outside."""
         column = np.clip(np.floor((x - self.square.x) / self.cell), 0, self.across - 1)
-        row = np.clip(np.floor((y - self.square.y) / self.cell), 0, self.across - 1)
-        cell: Ints = (row * self.across + column).astype(np.int64)
+        cell: Ints = ((self.row_at(y) - self.bottom) * self.across + column).astype(np.int64)
         return cell
 
 
@@ -122,17 +136,18 @@ def cell_lists(spheres: Spheres, grid: Grid) -> CellLists:
 
 
 def _strips(spheres: Spheres, grid: Grid) -> Iterator[tuple[int, int, Ints]]:
-    """Cut the grid into strips of whole rows; yield first row, row after the last, and the discs that reach it."""
+    """Cut the window into strips of whole rows; yield first row, row after the last, and the discs that reach it."""
     tall = max(1, STRIP_CELLS // grid.across)
-    strips = -(-grid.across // tall)
-    y, reach = (spheres.center[:, 1] - grid.square.y) / grid.cell, spheres.radius / grid.cell + MARGIN
-    first, last = (_clipped(np.floor(edge), grid.across) // tall for edge in (y - reach, y + reach))
+    strips = -(-len(grid.rows) // tall)
+    y, reach = (spheres.center[:, 1] - grid.square.y) / grid.cell - grid.bottom, spheres.radius / grid.cell + MARGIN
+    first, last = (_clipped(np.floor(edge), len(grid.rows)) // tall for edge in (y - reach, y + reach))
     disc, strip = expand(first, last + 1)
     by_strip = np.argsort(strip.astype(np.uint16), kind="stable")
     start = offsets(strip, strips)
     for number in range(strips):
         reaching = disc[by_strip[start[number] : start[number + 1]]]
-        yield number * tall, min((number + 1) * tall, grid.across), reaching
+        bottom = grid.bottom + number * tall
+        yield bottom, min(bottom + tall, grid.rows.stop), reaching
 
 
 def _strip(spheres: Spheres, grid: Grid, bottom: int, top: int, disc: Ints) -> tuple[Ints, Ints, Ints]:

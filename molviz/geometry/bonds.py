@@ -55,8 +55,9 @@ def bonds_of(molecule: Molecule, source: str = "file") -> Bonds:
     ``"file"``: what the file states (CONECT, struct_conn, chem_comp_bond; SDF and MOL state all there are), the bonds
     of amino acids, nucleotides and heme by the names of their atoms, peptide and nucleotide links and disulfides
     between them, and by distance those of all other atoms: ligands, hydrogens, metals. ``"distance"``: all by distance.
-    ``"none"``: none. Distances make no bond across the cell of a crystal, of an atom of unknown element, between water
-    and anything but a metal, or between two hydrogens unless they are H2. Raises InputError for any other source.
+    ``"none"``: none. Distances make no bond across the cell of a crystal, of an atom of unknown element, of one at the
+    place of an earlier one, between water and anything but a metal, or between two hydrogens unless they are H2. Raises
+    InputError for any other source.
     """
     if source not in SOURCES:
         raise InputError(f"bonds: {source!r}; expected one of {', '.join(SOURCES)}")
@@ -82,13 +83,18 @@ def covalent_radii(molecule: Molecule) -> Floats:
 
 
 def _contacts(molecule: Molecule, radius: Floats) -> Contacts:
-    """Return all pairs i < j with (ri + rj) / 2 ≤ |cj − ci| < ri + rj + 0.45 Å."""
+    """Return all pairs i < j with (ri + rj) / 2 ≤ |cj − ci| < ri + rj + 0.45 Å.
+
+    Of atoms at one place, elements that share a site of a crystal, the first has the bonds.
+    """
     known = np.flatnonzero(np.isfinite(radius))
     reach = Spheres(molecule.position[known], radius[known] + TOLERANCE / 2)
     first, second = (known[rows] for rows in intersecting_pairs(reach))
     gap = np.linalg.norm(molecule.position[first] - molecule.position[second], axis=1)
     contacts = Contacts(first, second, gap)
-    return contacts.take(gap >= CLASH * (radius[first] + radius[second]))
+    again: Bools = np.zeros(len(radius), dtype=bool)
+    again[second[gap == 0]] = True
+    return contacts.take((gap >= CLASH * (radius[first] + radius[second])) & ~(again[first] | again[second]))
 
 
 def _chemical(molecule: Molecule, contacts: Contacts) -> Contacts:

@@ -47,7 +47,8 @@ def random_scene(
     if radius is None:
         wanted = DEFAULT_DEPTH if depth is None else depth
         radius = math.sqrt(wanted / (math.pi * float(np.sum(share**2))))
-    return Spheres(_within_square(unit, radius * share), radius * share)
+    share *= radius
+    return Spheres(_within_square(unit, share), share)
 
 
 def text_scene(text: str, *, shrink: bool = False) -> Spheres:
@@ -93,10 +94,13 @@ def _perspective(z: Floats) -> Floats:
 
 
 def _within_square(unit: Floats, radius: Floats) -> Floats:
-    """Shrink x and y from [0, 1] to [r, 1 − r]; z stays."""
+    """The points with x and y shrunk, in place, from [0, 1] to [r, 1 − r]; z stays."""
     if np.any(radius > 0.5):
         raise InputError(f"discs of radius {radius.max():.4g} do not fit into the unit square, expected at most 0.5")
-    return np.column_stack([radius[:, None] + unit[:, :2] * (1.0 - 2.0 * radius[:, None]), unit[:, 2]])
+    for axis in (0, 1):
+        unit[:, axis] *= 1.0 - 2.0 * radius
+        unit[:, axis] += radius
+    return unit
 
 
 def _sub_dots(column: Ints, row: Ints) -> tuple[Ints, Ints]:

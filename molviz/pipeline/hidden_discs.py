@@ -8,10 +8,11 @@ from typing import TypeAlias
 
 import numpy as np
 
-from molviz.discs.arcs import Work, visible_perimeters
+from molviz.discs.arcs import Work
+from molviz.discs.bands import Each as Each
+from molviz.discs.bands import visible_perimeters
 from molviz.discs.grid import (
     UNIT_SQUARE,
-    CellLists,
     Grid,
     Square,
     bounding_square,
@@ -48,11 +49,10 @@ MOST_LETTERS = 100  # of a text: each is a few hundred spheres
 
 @dataclass(frozen=True)
 class HiddenDiscs:
-    """A scene without its hidden lines; ``lists`` are kept for the regions."""
+    """A scene without its hidden lines."""
 
     spheres: Spheres
     grid: Grid
-    lists: CellLists
     arcs: CircleArcs
     work: Work
     seconds: float
@@ -85,11 +85,12 @@ class HiddenDiscs:
 
 
 def random_discs(
-    count: int, *, depth: float | None, radius: float | None, seed: int | None, shrink: bool, across: int | None
-) -> HiddenDiscs:
+    count: int, *, depth: float | None, radius: float | None, seed: int | None, shrink: bool, across: int | None,
+    each: Each = map,
+) -> HiddenDiscs:  # fmt: skip
     """Return Franklin's random scene without its hidden lines, its grid over the unit square."""
     scene = random_scene(count, depth=depth, radius=radius, seed=seed, shrink=shrink)
-    return hide_discs(scene, UNIT_SQUARE, across)
+    return hide_discs(scene, UNIT_SQUARE, across, each)
 
 
 def lettered_discs(text: str, *, shrink: bool, across: int | None) -> HiddenDiscs:
@@ -99,7 +100,9 @@ def lettered_discs(text: str, *, shrink: bool, across: int | None) -> HiddenDisc
     return hide_discs(text_scene(text, shrink=shrink), across=across)
 
 
-def molecule_discs(loaded: Loaded, view_options: ViewOptions, across: int | None) -> HiddenDiscs:
+def molecule_discs(
+    loaded: Loaded, view_options: ViewOptions, across: int | None, each: Each = map
+) -> HiddenDiscs:
     """Return a molecule's atoms as opaque discs, ordered by their centres alone, without their hidden lines.
 
     Raises InputError for a central view, whose outlines are no circles.
@@ -107,23 +110,25 @@ def molecule_discs(loaded: Loaded, view_options: ViewOptions, across: int | None
     if view_options.distance is not None:
         raise InputError("discs are drawn in parallel projection; expected no --perspective", loaded.source)
     seen = view_of(loaded.spheres, view_options).of(loaded.spheres)
-    return hide_discs(by_depth(seen), across=across)
+    return hide_discs(by_depth(seen), across=across, each=each)
 
 
-def hide_discs(spheres: Spheres, square: Square | None = None, across: int | None = None) -> HiddenDiscs:
+def hide_discs(
+    spheres: Spheres, square: Square | None = None, across: int | None = None, each: Each = map
+) -> HiddenDiscs:
     """Remove the hidden lines of n ≥ 1 discs; z of the spheres is depth, larger is farther.
 
     ``square`` is what the grid covers, by default the bounding square; ``across`` its cells along one side, by
-    default those of Franklin's formula. Raises ``InputError`` where there is nothing to draw.
+    default those of Franklin's formula; ``each`` does the bands of a large scene. Raises ``InputError`` where there is
+    nothing to draw.
     """
     if not len(spheres.radius):
         raise InputError("no spheres, expected at least one")
     begin = time.perf_counter()
     square = square or bounding_square(spheres)
     grid = Grid(square, across or franklin_count(spheres.radius, square))
-    lists = cell_lists(spheres, grid)
-    arcs, work = visible_perimeters(spheres, grid, lists)
-    return HiddenDiscs(spheres, grid, lists, arcs, work, time.perf_counter() - begin)
+    arcs, work = visible_perimeters(spheres, grid, each)
+    return HiddenDiscs(spheres, grid, arcs, work, time.perf_counter() - begin)
 
 
 def regions_of(scene: HiddenDiscs) -> DiscRegions:
@@ -139,7 +144,7 @@ def _regions(scene: HiddenDiscs, attempt: int) -> DiscRegions:
         scene = hide_discs(displaced(scene.spheres, seed=attempt - 1), across=scene.grid.across)
     if scene.work.pairs_touching:
         raise Degenerate
-    return visible_regions(scene.spheres, scene.grid, scene.lists, scene.arcs)
+    return visible_regions(scene.spheres, scene.grid, cell_lists(scene.spheres, scene.grid), scene.arcs)
 
 
 def picture_of(scene: HiddenDiscs, look: DiscLook, fill: bool = False) -> Picture:

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Strings
+from molviz.arrays import Strings, among
 from molviz.errors import InputError, expected_instead
 from molviz.geometry.bonds import bonds_of
 from molviz.geometry.solids import BallsAndSticks, solids_of
@@ -23,6 +23,7 @@ from molviz.model.selection import check_selection, select
 from molviz.model.sticks import NO_STICKS
 from molviz.pipeline.inputs import Loaded
 from molviz.pipeline.values import Options, chosen, given, parse_positive, parse_text
+from molviz.readers.atoms import coinciding_rows
 
 EVERYTHING = "all"
 
@@ -69,11 +70,14 @@ def _representation(value: Any) -> tuple[str, str]:
 def shown(loaded: Loaded, options: SolidOptions) -> tuple[Loaded, Strings]:
     """Return a model less its hidden atoms, and the representation (n,) of each of the others.
 
-    Raises InputError where all are hidden.
+    Where elements share a site of a crystal, the first of them has the ball to which the sticks lead. Raises InputError
+    where all are hidden.
     """
     names = np.full(len(loaded.molecule), SPACEFILL, dtype=f"<U{max(map(len, REPRESENTATIONS))}")
     for selection, name in options.representations:
         names[select(loaded.molecule, selection, loaded.model)] = name
+    joined = np.flatnonzero(among(names, (BALL_AND_STICK, STICKS)))
+    names[joined[coinciding_rows(loaded.molecule.position[joined])]] = HIDE
     rows = np.flatnonzero(names != HIDE)
     if len(rows) == len(names):
         return loaded, names
@@ -85,7 +89,7 @@ def shown(loaded: Loaded, options: SolidOptions) -> tuple[Loaded, Strings]:
 
 def solids_for(loaded: Loaded, representation: Strings, options: SolidOptions) -> BallsAndSticks:
     """Return what stands for the atoms of a model without hidden ones; bonds are looked for where any are drawn."""
-    if not np.isin(representation, (BALL_AND_STICK, STICKS)).any():
+    if not among(representation, (BALL_AND_STICK, STICKS)).any():
         return BallsAndSticks(loaded.spheres, NO_STICKS, ())
     solids = solids_of(loaded.spheres, representation, bonds_of(loaded.molecule, options.bonds), options.sizes)
     return solids._replace(notes=tuple(f"{loaded.source}: {note}" for note in solids.notes))

@@ -155,7 +155,7 @@ def _repeated(key: Floats | Ints) -> Ints:
     """The rows (k,), ascending, whose key (n,) is that of another row, or no number: equal things have equal keys."""
     order = np.argsort(key)
     again = ~(key[order][1:] > key[order][:-1])
-    return np.sort(order[np.append(again, False) | np.insert(again, 0, False)])
+    return np.sort(order[(np.append(again, False) | np.insert(again, 0, False))[: len(order)]])
 
 
 def coinciding_note(count: int, source: str, line: int | None) -> str:
