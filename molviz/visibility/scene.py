@@ -5,7 +5,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints, distinct
+from molviz.arrays import Floats, Ints
 from molviz.errors import InputError, InternalError
 from molviz.geometry.boundary import Boundary, union_boundary
 from molviz.geometry.general_position import first_general, general_position, shrinkage
@@ -95,7 +95,11 @@ def _prepare(spheres: Spheres, sticks: Sticks, attempt: int, only: View | None) 
 
 def _wanted(spheres: Spheres, sticks: Sticks, view: View) -> Ints:
     """The spheres that may be seen, and all with sticks."""
-    return distinct(np.concatenate([_possibly_visible(spheres, view), sticks.first, sticks.second]))
+    wanted = np.zeros(len(spheres.radius), dtype=bool)
+    wanted[sticks.first] = wanted[sticks.second] = True
+    if not wanted.all():
+        wanted[_possibly_visible(spheres, view)] = True
+    return np.flatnonzero(wanted)
 
 
 def _possibly_visible(spheres: Spheres, view: View) -> Ints:
