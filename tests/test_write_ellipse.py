@@ -130,8 +130,8 @@ def arc_centre(p: complex, q: complex, rx: float, ry: float, turn: complex, larg
 def drawn(d: str) -> np.ndarray:
     """Return points (m, 2) of path data, y down."""
     number = r"(-?(?:\d+\.?\d*|\.\d+))"
-    here, points = 0j, []
-    for command in re.findall("[Mal][^Malz]*", d):
+    here, there, begun, points = 0j, 0j, 0j, []
+    for command in re.findall("[Malz][^Malz]*", d):
         if command[0] == "a":
             head, tail = re.fullmatch(rf"a((?:[ ]?{number}){{3}}) (.*)", command).group(1, 3)
             rx, ry, degrees = map(float, re.findall(number, head))
@@ -141,11 +141,15 @@ def drawn(d: str) -> np.ndarray:
             centre, a, swept, grow = arc_centre(here, there, rx, ry, turn, large, positive)
             unit = grow * (centre + (a - centre) * np.exp(1j * swept * np.linspace(0, 1, 301)))
             points += ((unit.real * rx + 1j * unit.imag * ry) * turn).tolist()
+        elif command[0] == "z":
+            points += [here, begun]
         else:
-            step = complex(*map(float, re.findall(number, command)))
-            there = step if command[0] == "M" else here + step
-            points += [here, there] if command[0] == "l" else [there]
-        here = there
+            values = [float(text) for text in re.findall(number, command)]
+            for step in map(complex, values[::2], values[1::2]):
+                there = step if command[0] == "M" else here + step
+                points += [here, there] if command[0] == "l" else [there]
+                here = there
+        here, begun = there, there if command[0] == "M" else begun
     return np.array([[point.real, point.imag] for point in points])
 
 
@@ -175,3 +179,13 @@ def test_relative_steps_do_not_drift() -> None:
     arcs = PlaneArcs(zero + 50, zero + [33.333, 0], zero + [0, 33.333], t, np.full(k, TURN / k))
     (data,) = path_data(Paths(arcs, np.array([0, k]), np.array([0, 1])), 100.0)
     assert np.abs(np.hypot(*(drawn(data) - 50).T) - 33.333).max() < 0.02
+
+
+def test_lines_after_lines_need_no_letter_and_the_last_of_a_loop_is_its_end() -> None:
+    corners = np.array([[10.0, 10], [30, 12], [28, 40], [9, 38]])
+    step, zero = np.roll(corners, -1, axis=0) - corners, np.zeros(4)
+    middle = corners + step / 2
+    arcs = PlaneArcs(middle, step / 2, np.zeros((4, 2)), zero - np.pi, zero + np.pi)
+    (data,) = path_data(Paths(arcs, np.array([0, 4]), np.array([0, 1])), 100.0)
+    assert data == "M10 90l20-2-2-28-19 2z"
+    assert drawn(data)[-1].tolist() == [10, 90]

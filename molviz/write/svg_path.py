@@ -168,26 +168,36 @@ def joined(steps: Ints, first: bool | Bools) -> Words:
     return beside_each_other(number_words(steps, 2, spaced))
 
 
-def command_words(command: Commands) -> tuple[Words, Bools]:
-    """Return one row of words (k, w) per command, and which commands (k,) go anywhere: the others have no letters."""
+def command_words(command: Commands, begins: Bools) -> tuple[Words, Bools]:
+    """Return one row of words (k, w) per command, and which commands (k,) go anywhere: the others have no letters.
+
+    A line after a line needs none either, where a minus parts their numbers.
+    """
     step = steps_of(command.end - command.start, 2)
     going, arc = (step != 0).any(axis=1), command.radius[:, 0] > 0
+    line = going & ~arc
+    again = line & np.append(False, line[:-1]) & ~begins & (step[:, 0] < 0)
     shape = joined(steps_of(np.column_stack([command.radius, command.rotation]), 2), False)
     flags = words(" 0 0", " 0 1", " 1 0", " 1 1")[2 * command.large + command.positive]
     shape[~arc], flags[~arc] = 0, 0
     letter = words("l", "a")[arc.astype(int)]
+    letter[again] = 0
     table = np.column_stack([letter, shape, flags, joined(step, arc)])  # a blank before the step: not all read without
     table[~going] = 0
     return table, going
 
 
 def loop_texts(paths: Paths, command: Commands) -> Formatted:
-    """Return the path data of each loop, empty where no command is left."""
-    commands, going = command_words(command)
+    """Return the path data of each loop, empty where no command is left; ``z`` draws the line that closes one."""
     start = paths.loop_start
+    begins: Bools = np.zeros(len(command.start), dtype=bool)
+    begins[start[:-1]] = True
+    commands, going = command_words(command, begins)
     drawn = np.diff(np.concatenate([[0], np.cumsum(going)])[start]) > 0
     end = np.zeros(len(commands), dtype=np.uint32)
-    end[start[1:][drawn & closed_loops(paths)] - 1] = word("z")
+    last = start[1:][drawn & closed_loops(paths)] - 1
+    end[last] = word("z")
+    commands[last[command.radius[last, 0] == 0]] = 0
     coordinates = joined(steps_of(command.start[start[:-1][drawn]], 2), False)
     move = np.zeros((len(drawn), 1 + coordinates.shape[1]), dtype=np.uint32)
     move[drawn, 0], move[drawn, 1:] = word("M"), coordinates
