@@ -100,6 +100,7 @@ fuzz: $(VENV)/developed ## inputs that nobody would write (FUZZ="--seed 1 --coun
 
 soak: $(VENV)/developed ## scenes against a z-buffer, closed forms and all invariants (SOAK="--seed 1 --count 5000")
 	$(BIN)/python -m tests.soak $(SOAK)
+	$(BIN)/python -m tests.stick_soak
 
 patches: $(VENV)/developed ## 100,000 points of every kind of patch of smooth surfaces (PATCHES="--seed 1")
 	$(BIN)/python -m tests.patches $(PATCHES)
