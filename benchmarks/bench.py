@@ -1,6 +1,6 @@
 """All figures in one table: whole processes, their time, memory and bytes, and peers of the same run beside them.
 
-    python benchmarks/bench.py [--repeat 3] [--quick] [FILE...] > benchmarks/RESULTS.md
+    python benchmarks/bench.py [--repeat 3] [--quick] [FILE...] [--assembly FILE...] > benchmarks/RESULTS.md
 
 Every row is the best of some runs: seconds on the wall and of the processors (all threads), how often the latter holds
 ``import numpy`` of the same run, and the peak of memory. Files are drawn and measured besides the samples; RasMol
@@ -118,12 +118,24 @@ def file(bench: Bench, source: Path) -> None:
     for style in ("goodsell", "flat"):
         bench.drawn(f"{name}, {style}, SVG", source, "svg", "--style", style)
     bench.drawn(f"{name}, flat, painter, SVG", source, "svg", "--style", "flat", "--method", "painter")
+    for style in ("goodsell", "flat"):
+        bench.drawn(f"{name}, {style}, sticks, SVG", source, "svg", "--style", style, "--rep", "sticks")
     peer = rasmol(bench, source) if RASMOL.exists() and ".pdb" in source.suffixes else None
     bench.drawn(f"{name}, flat, PS (by RasMol's)", source, "ps", "--style", "flat", peer=peer)
     balls = bench.folder / "balls.xyzr"
     as_balls(source, balls)
     for probe in ("0", "1.4"):
         measured(bench, name, balls, probe)
+
+
+def assembly(bench: Bench, source: Path) -> None:
+    """The biological assembly of a file drawn and measured, once: it takes long where it is large."""
+    name, bench.repeat = f"{source.name.split('.')[0]}, assembly", 1
+    for style in ("flat", "goodsell"):
+        bench.drawn(f"{name}, {style}, SVG", source, "svg", "--style", style, "--assembly", "1")
+    for probe in ("0", "1.4"):
+        command = [sys.executable, "-m", "molviz", "measure", str(source), "--assembly", "1", "--probe", probe]
+        bench.row(f"{name}, measure, probe {probe}", [*command, "--quiet"])
 
 
 def rasmol(bench: Bench, source: Path) -> Run:
@@ -192,9 +204,11 @@ def main() -> None:
     """Print the table as Markdown."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="*", type=Path)
+    parser.add_argument("--assembly", nargs="*", type=Path, default=[], help="files whose assembly 1 is drawn too")
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--quick", action="store_true")
     options = parser.parse_args()
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # a user's modules are compiled once, not with every start
     print(f"# Measured by `make bench`\n\n{machine()}\n")
     print("| what | wall, s | processors, s | × numpy | MB | bytes | by the peer's |\n|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as name:
@@ -204,6 +218,8 @@ def main() -> None:
             file(bench, source)
         scenes(bench, options.quick)
         scaling(bench, SIZES[:3] if options.quick else SIZES)
+        for source in options.assembly:
+            assembly(bench, source)
 
 
 if __name__ == "__main__":
