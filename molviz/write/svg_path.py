@@ -190,9 +190,9 @@ def command_words(command: Commands, begins: Bools) -> tuple[Words, Bools]:
 def loop_texts(paths: Paths, command: Commands) -> Formatted:
     """Return the path data of each loop, empty where no command is left; ``z`` draws the line that closes one."""
     start = paths.loop_start
-    begins: Bools = np.zeros(len(command.start), dtype=bool)
-    begins[start[:-1]] = True
-    commands, going = command_words(command, begins)
+    begins: Bools = np.zeros(len(command.start) + 1, dtype=bool)
+    begins[start] = True  # the last loops may be empty
+    commands, going = command_words(command, begins[:-1])
     drawn = np.diff(np.concatenate([[0], np.cumsum(going)])[start]) > 0
     end = np.zeros(len(commands), dtype=np.uint32)
     last = start[1:][drawn & closed_loops(paths)] - 1
