@@ -3,7 +3,7 @@
 import gemmi
 import pytest
 
-from molviz.model.elements import SYMBOLS, symbol_of, symbol_of_atom_name, symbol_of_label
+from molviz.model.elements import SYMBOLS, symbol_of, symbol_of_atom_name, symbol_of_label, symbol_of_site_label
 
 
 def test_symbols_are_those_of_the_periodic_table() -> None:
@@ -22,6 +22,12 @@ def test_isotopes() -> None:
 def test_labels() -> None:
     labels = ["C1", "H2a", "Fe2+", "6", "0", "119", "Si", "OW", "X", "+", "³"]
     assert [symbol_of_label(label) for label in labels] == ["C", "H", "Fe", "C", "X", "X", "Si", "X", "X", "X", "X"]
+
+
+def test_labels_of_sites() -> None:
+    labels = ["CaX1", "NaX16", "WatX1", "OW1", "Ow2", "Si1", "CL1", "Fe2+", "X1", "Q1", "7", ""]
+    expected = ["Ca", "Na", "O", "O", "O", "Si", "Cl", "Fe", "X", "X", "N", "X"]
+    assert [symbol_of_site_label(label) for label in labels] == expected
 
 
 @pytest.mark.parametrize(

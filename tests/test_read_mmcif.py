@@ -150,6 +150,12 @@ def test_a_small_molecule_fills_its_unit_cell() -> None:
     assert np.allclose(sorted(molecule.position[molecule.element == "Na"].tolist()), expected)
 
 
+def test_of_elements_that_share_a_site_the_most_occupied_is_the_first() -> None:
+    text = SMALL.replace("_atom_site_fract_z\n", "_atom_site_fract_z\n_atom_site_occupancy\n")
+    text = text.replace("Na1 0 0 0\nCl1 0.5 0.5 0.5", "KX1 0 0 0 .2\nCl1 .5 .5 .5 1\nNaX1 0 0 0 .7\nWatX1 0 0 0 .7")
+    assert read("t.cif", text.encode()).models[0].element.tolist() == ["Na", "O", "K"] * 4 + ["Cl"] * 4
+
+
 def test_a_small_molecule_with_a_missing_coordinate_or_cell_is_refused() -> None:
     with pytest.raises(InputError, match=r"^t\.cif:15: _atom_site_fract_z is '\?'"):
         read("t.cif", SMALL.replace("0.5 0.5 0.5", "0.5 0.5 ?").encode())

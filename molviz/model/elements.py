@@ -20,6 +20,7 @@ _NEVER_GUESSED = frozenset(("AC", "NP", "NO", "HE", "HF", "HO", "HS"))
 _ION_NAMES = {"SOD": "Na", "CLA": "Cl", "POT": "K", "CAL": "Ca", "CES": "Cs", "LIT": "Li", "RUB": "Rb"}
 # Symbols of two letters that begin no name of an atom of another element.
 _CLEAR_PAIRS = frozenset(("CL", "BR", "FE", "ZN", "MG", "MN", "CU", "SE", "SI", "LI", "AL", "NI", "PT", "AU", "AG"))
+_WATER_SITE = "Wat"
 _MARTINI_BEAD = re.compile(r"(BB|SC)\d?$")
 
 
@@ -38,6 +39,19 @@ def symbol_of_label(label: str) -> str:
         return SYMBOLS[int(number) - 1] if 1 <= number <= len(SYMBOLS) else UNKNOWN
     letters = re.match(r"[A-Za-z]*", label)
     return symbol_of(letters[0] if letters else "") or UNKNOWN
+
+
+def symbol_of_site_label(label: str) -> str:
+    """Return the element of a site of a crystal whose label alone names it: as ``symbol_of_label`` where this knows it.
+
+    Else the symbol, as it is usually written, that the label begins with (``"CaX1"``, ``"OW1"``); ``"Wat"`` is the
+    oxygen of water in the American Mineralogist Crystal Structure Database.
+    """
+    symbol = symbol_of_label(label)
+    if symbol != UNKNOWN:
+        return symbol
+    written = re.match(r"[A-Z][a-z]?", "O" if label.startswith(_WATER_SITE) else label)
+    return next(filter(None, map(symbol_of, (written[0], written[0][0]))), UNKNOWN) if written else UNKNOWN
 
 
 def symbol_of_atom_name(name: str, residue_name: str) -> str:

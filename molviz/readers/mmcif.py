@@ -17,7 +17,7 @@ from gemmi import cif
 
 from molviz.arrays import Floats, Ints, Strings
 from molviz.errors import InputError
-from molviz.model.elements import UNKNOWN, symbol_of_atom_name, symbol_of_label
+from molviz.model.elements import UNKNOWN, symbol_of_atom_name, symbol_of_label, symbol_of_site_label
 from molviz.model.molecule import Molecule
 from molviz.readers.atoms import AtomTable, coinciding_note, coinciding_rows, models_of
 from molviz.readers.mmcif_bonds import bonds_stated_in
@@ -334,7 +334,7 @@ def _product(factors: list[Floats]) -> Floats:
 
 
 def _unit_cell(site: Site) -> Reading:
-    """Return all atoms of one unit cell, fractional coordinates in [0, 1)."""
+    """Return all atoms of one unit cell, fractional coordinates in [0, 1); of a shared place the most occupied first."""
     listed = site.coordinates(_FRACTIONAL)
     try:
         small = gemmi.make_small_structure_from_block(site.block)
@@ -349,14 +349,22 @@ def _unit_cell(site: Site) -> Reading:
     fraction = np.array([atom.fract.tolist() for atom in sites])
     fraction -= np.floor(fraction + 1e-6)  # operators in double precision leave 0 as −1e−17
     position = transformed(fraction, np.array(small.cell.orth.mat.tolist()))
+    order = _most_occupied_first(position, np.array([atom.occ for atom in sites]))
+    position, sites = position[order], [sites[row] for row in order.tolist()]
     label = np.array([atom.label for atom in sites])
-    element = np.array([symbol_of_label(atom.type_symbol or atom.label) for atom in sites])
+    element = np.array([symbol_of_site_label(atom.type_symbol or atom.label) for atom in sites])
     molecule = Molecule.of(_name(site), position, element, atom_name=label)
     again = coinciding_rows(position)
     warnings = [coinciding_note(len(again), site.source, None)] if len(again) else []
     if not small.cell.images and not _states_no_symmetry(site, small.spacegroup_hm):
         warnings.append(note("no symmetry that is understood; only the listed sites are drawn", site.source))
     return Reading(site.source, "mmcif", (molecule,), {}, tuple(warnings), (molecule.chain,))
+
+
+def _most_occupied_first(position: Floats, occupancy: Floats) -> Ints:
+    """Return all rows (n,): those that share one place (n, 3) follow its first, the highest occupancy before others."""
+    _, first, place = np.unique(position, axis=0, return_index=True, return_inverse=True)
+    return np.lexsort((-occupancy, first[place.ravel()]))
 
 
 def _states_no_symmetry(site: Site, space_group: str) -> bool:
