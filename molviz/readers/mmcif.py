@@ -334,7 +334,7 @@ def _product(factors: list[Floats]) -> Floats:
 
 
 def _unit_cell(site: Site) -> Reading:
-    """Return all atoms of one unit cell, fractional coordinates in [0, 1); of a shared place the most occupied first."""
+    """Return all atoms of one unit cell, fractional coordinates in [0, 1); at one place the most occupied first."""
     listed = site.coordinates(_FRACTIONAL)
     try:
         small = gemmi.make_small_structure_from_block(site.block)
@@ -350,9 +350,9 @@ def _unit_cell(site: Site) -> Reading:
     fraction -= np.floor(fraction + 1e-6)  # operators in double precision leave 0 as −1e−17
     position = transformed(fraction, np.array(small.cell.orth.mat.tolist()))
     order = _most_occupied_first(position, np.array([atom.occ for atom in sites]))
-    position, sites = position[order], [sites[row] for row in order.tolist()]
-    label = np.array([atom.label for atom in sites])
-    element = np.array([symbol_of_site_label(atom.type_symbol or atom.label) for atom in sites])
+    position, ordered = position[order], [sites[row] for row in order.tolist()]
+    label = np.array([atom.label for atom in ordered])
+    element = np.array([symbol_of_site_label(atom.type_symbol or atom.label) for atom in ordered])
     molecule = Molecule.of(_name(site), position, element, atom_name=label)
     again = coinciding_rows(position)
     warnings = [coinciding_note(len(again), site.source, None)] if len(again) else []
