@@ -10,18 +10,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints
+from molviz.arrays import Bools, Floats, Ints, distinct
 from molviz.errors import InternalError
 from molviz.geometry.boundary_graph import BoundaryGraph
 from molviz.geometry.components import component_labels
 from molviz.geometry.planar_map import Loops
 from molviz.geometry.rows import expand, lists_taken
 from molviz.geometry.spherical_faces import SphericalFaces, loop_counts
-from molviz.geometry.triangulation import Coarse, Regions, triangulated
+from molviz.geometry.triangulation import Coarse, Regions, Triangles, triangulated
 from molviz.vectors import dot
 
 WIDEST = np.pi / 6  # of a piece of a curve: coarser polygons would cut across each other
 FINER = 2  # times as many pieces where a polygon meets itself all the same
+BEYOND = 1e-10  # of a radius: inner points that are deeper in a cap are not on the surface
 STRICT = (True,) * 4 + (False,) * 6  # whether polygons may not meet themselves: those next to no width always do
 WELD = 1e-4  # of the longest edge: points as near as that are one in the single precision of files
 NO_MESH = "some regions of the surface have no triangles that fit together"
@@ -184,8 +185,23 @@ def face_triangles(
         found = triangulated(regions, points.place(), longest, strict)
     except Coarse as coarse:
         raise Coarse(kept[coarse.region]) from None
+    beyond = _beyond_rims(regions, faces, kept, found) if strict else kept[:0]
+    if len(beyond):
+        raise Coarse(distinct(beyond))
     points.add(found.inner, faces.sphere[kept[found.inner_region]])
     return found.point
+
+
+def _beyond_rims(regions: Regions, faces: SphericalFaces, kept: Ints, found: Triangles) -> Ints:
+    """The faces (k,) of inner points that lie between a chord and its arc, in the cap that the arc's rim cuts off."""
+    region = found.inner_region
+    away = (found.inner - regions.center[region]) / regions.radius[region, None]
+    loop = np.searchsorted(faces.loops.face, np.arange(len(faces.sphere) + 1))
+    begin = faces.loops.start[loop][kept[region]]
+    point, place = expand(begin, faces.loops.start[loop][kept[region] + 1])
+    edge = faces.loops.half_edge[place]
+    deep = dot(faces.rims.axis.take(edge, axis=0), away.take(point, axis=0)) - faces.rims.cosine[edge]
+    return kept[region[point[deep > BEYOND]]]
 
 
 def whole_spheres(points: Points, ball: Ints, center: Floats, radius: Floats, longest: float) -> list[Ints]:
