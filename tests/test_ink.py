@@ -32,8 +32,10 @@ from molviz.picture.ink import (
     line_widths,
     widest_other,
 )
+from molviz.picture.ink_ends import INSIDE, LONGEST_MITRE, OUTSIDE
 from molviz.picture.ink_pockets import inked_arcs, pockets
-from molviz.picture.ink_shapes import INSIDE, NECK, Strokes, in_colors, inked
+from molviz.picture.ink_shapes import NECK, in_colors, inked
+from molviz.picture.ink_strokes import Strokes
 from molviz.picture.style import load_style
 from molviz.visibility.horizon_runs import SPACING, HorizonRuns, horizon_runs
 from molviz.visibility.map import BACKGROUND, VisibilityMap
@@ -300,7 +302,7 @@ def horizon_gap(runs: HorizonRuns, host: int, points: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("distance", DISTANCES)
 @pytest.mark.parametrize("seed", range(3))
 def test_lines_that_pass_under_a_line_end_under_its_ink(seed: int, distance: float | None) -> None:
-    """No shape comes out on the inner side of a line under which it ends.
+    """No shape comes out on the inner side of a line under which it ends, nor lies on a ball whose line is thinner.
 
     Of the shape's points in the host's disc the deepest is no deeper than the host's ink is wide there.
     """
@@ -312,17 +314,41 @@ def test_lines_that_pass_under_a_line_end_under_its_ink(seed: int, distance: flo
         for at in strokes.ends[:, row].tolist():
             other = int(runs.vertices.on_other_run(np.array([at]))[0]) if at >= 0 else -1
             if other < 0 or at not in runs.ends or other in widths.ends:
-                continue  # in the open, or a corner, where both are round
+                continue  # in the open, or a corner
             host, place = runs.vertices.run[[other]], runs.vertices.place[[other]]
             corner = runs.arcs.take(host).at(runs.t[runs.start[host] + np.round(place).astype(int)])
             wide = float(at_places(widths.width, runs, host, place)[0])
             own = float(at_places(widths.width, runs, runs.vertices.run[[at]], runs.vertices.place[[at]])[0])
-            if own == 0 or wide < own:
+            if own == 0 or widest_other(widths.width, runs, np.array([at]))[0] > wide:
                 continue
-            close = points[np.hypot(*(points - corner).T) < 2 * wide]
+            close = points[np.hypot(*(points - corner).T) < 2 * max(wide, own)]
             seen += 1
             assert horizon_gap(runs, int(host[0]), close).min(initial=0.0) > INSIDE * wide - 0.02
     assert seen > 10
+
+
+@pytest.mark.parametrize(("radius", "half"), [(1.7, 1.5), (1.7, 1.0), (1.7, 0.4), (3.0, 2.9)])
+def test_two_lines_that_end_together_are_mitred(radius: float, half: float) -> None:
+    """Sides of equal balls at (± a, 0) meet at x = 0, where ``y² = (r + share w)² − a²``; spikes are limited.
+
+    Where the wedge between both outer sides is narrow, ink fills it somewhat farther.
+    """
+    scene = Spheres(np.array([[-half, 0, 0], [half, 0, -1e-3]]), np.full(2, radius))
+    view = file_axes(scene)
+    runs = horizon_runs(map_of(scene, view), view)
+    widths = line_widths(runs, np.zeros(2), np.zeros(2), STYLE, SCALE)
+    _, paths, _ = inked(runs, widths, NECK * STYLE.silhouette.at(SCALE))
+    width = STYLE.silhouette.at(SCALE)
+    points = np.vstack([polygon(loop, 40) for loop in loops(paths)])
+    above = points[points[:, 1] > 0]
+    end = float(np.sqrt(radius**2 - half**2))
+    outer, inner = (float(np.sqrt(max((radius + share * width) ** 2 - half**2, 0.0))) for share in (OUTSIDE, INSIDE))
+    tip = max(inner, end - LONGEST_MITRE * width)
+    middle = above[np.abs(above[:, 0]) < 0.02, 1]
+    assert middle.min() == pytest.approx(tip, abs=0.02)
+    assert outer - 0.02 < middle.max() < outer + (0.02 if half < end else 0.15)
+    off = np.abs(above[:, 0]) > (0.02 if tip == inner else 0.1)
+    assert np.hypot(np.abs(above[off, 0]) - half, above[off, 1]).min() > radius + INSIDE * width - 0.02
 
 
 def test_the_dark_ink_ends_in_points_on_the_things_own() -> None:
@@ -399,9 +425,9 @@ def patches(image: np.ndarray) -> list[np.ndarray]:
 def test_thorns_and_notches_are_few() -> None:
     """By opening and closing with discs, at 100 pixels an ångström, in three random scenes.
 
-    What opening with a disc of 0.04 Å takes away and is neither long nor tiny is a thorn, or the tip of a line that
-    fades; what closing with a disc of 0.05 Å fills and is not tiny is a notch. When lines ended on the very horizon
-    above them and each was as wide as it liked, there were 19 and 16.
+    What opening with a disc of 0.04 Å takes away and is neither long nor tiny is a thorn, the tip of a line that fades,
+    or a sharp mitre, which most of them are; what closing with a disc of 0.05 Å fills and is not tiny is a notch. When
+    lines ended on the very horizon above them and each was as wide as it liked, there were 19 and 16.
     """
     thorns, notches = 0, 0
     for seed in range(3):
@@ -411,7 +437,7 @@ def test_thorns_and_notches_are_few() -> None:
         thorns += sum(len(p) > 12 and np.ptp(p, axis=0).max() < 15 for p in patches(image & ~opened))
         notches += sum(len(p) > 40 for p in patches(closed & ~image))
         assert 0.02 < image.mean() < 0.5
-    assert thorns <= 7 and notches <= 9
+    assert thorns <= 12 and notches <= 9
 
 
 # ---- pockets

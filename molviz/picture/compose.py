@@ -15,8 +15,9 @@ from molviz.picture.coloring import order_of_appearance
 from molviz.picture.furniture import Box, Furnished, Furniture, Label, Ramp, Swatches, furnish
 from molviz.picture.hatching import LEVELS, hatched, level_distance, tone_levels
 from molviz.picture.ink import SPUR, WIDEST_SHARE, Widths, at_places, line_widths
+from molviz.picture.ink_ends import OUTSIDE
 from molviz.picture.ink_pockets import inked_arcs, pockets
-from molviz.picture.ink_shapes import NECK, OUTSIDE, in_colors, inked
+from molviz.picture.ink_shapes import NECK, in_colors, inked
 from molviz.picture.looks import (
     NEARER_BY,
     Looks,

@@ -10,7 +10,7 @@ from molviz.geometry.components import component_labels
 from molviz.geometry.planar_map import loop_areas, oriented
 from molviz.geometry.rows import blocks, expand, lists_taken, offsets
 from molviz.picture.ink import Widths, at_places
-from molviz.picture.ink_shapes import INSIDE, OUTSIDE
+from molviz.picture.ink_ends import INSIDE, OUTSIDE
 from molviz.vectors import dot
 from molviz.visibility.horizon_runs import HorizonRuns
 from molviz.visibility.map import VisibilityMap
