@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from molviz.geometry.circles import circles_about
 from molviz.model.spheres import Spheres
+from molviz.visibility import culling
 from molviz.visibility.curves import HORIZON, Curves, creases_of
 from molviz.visibility.view import file_axes
 from tests.oracle import heights, random_spheres
@@ -241,6 +242,21 @@ def test_balls_behind_a_wall_are_culled(distance: float | None) -> None:
     behind = np.column_stack([x / 3, y / 3, np.zeros(49)])
     keep = kept(Spheres(np.concatenate([wall, behind, [[9, 0, 0]]]), np.append(np.ones(98), 1)), distance)
     assert keep[:49].all() and not keep[49:98].any() and keep[98]
+
+
+@EYES
+@pytest.mark.parametrize("seed", range(4))
+def test_culling_in_many_groups_keeps_all_that_shows(
+    distance: float | None, seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Groups of a few spheres each are dropped by what the groups before them cover, or when all is known."""
+    spheres = random_spheres(seed, 400, 14.0, 2.0)
+    spheres = Spheres(spheres.center - 7.0, spheres.radius)
+    at_once = kept(spheres, distance)
+    monkeypatch.setattr(culling, "GROUP", 2)
+    monkeypatch.setattr(culling, "BLOCK_ROWS", 64)
+    assert 100 < at_once.sum() < 400
+    assert np.array_equal(kept(spheres, distance), at_once)
 
 
 def spheres_of(*rows: tuple[float, float, float, float]) -> Spheres:

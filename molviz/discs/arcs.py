@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Bools, Ints
+from molviz.arrays import Bools, Ints, distinct
 from molviz.discs.grid import NOBODY, CellLists, Grid, nearer, on_perimeter
 from molviz.geometry.circles import CircleArcs
 from molviz.geometry.intervals import Intervals, gaps
@@ -77,18 +77,11 @@ def pairs_on_lists(spheres: Spheres, lists: CellLists, own: Bools, cells: slice)
         ahead = nearer(spheres, one, other)
         far, near = np.where(ahead, other, one), np.where(ahead, one, other)
         mine = np.flatnonzero(own[far])
-        return _distinct(far[mine] * count + near[mine])
+        return distinct(far[mine] * count + near[mine])
 
     keys = np.concatenate([after[:0], *in_threads(keys_of, blocks(end - after, BLOCK_ROWS))])
     inside = slice(int(lists.start[cells.start]), int(lists.start[cells.stop]))
-    return Pairs(*np.divmod(_distinct(keys), count)), int(np.sum((end - after)[inside]))
-
-
-def _distinct(key: Ints) -> Ints:
-    """The distinct keys, ascending (by one sort, many times faster here than the table behind ``numpy.unique``)."""
-    key = np.sort(key)
-    distinct: Ints = key[np.append(True, key[1:] != key[:-1])[: len(key)]]
-    return distinct
+    return Pairs(*np.divmod(distinct(keys), count)), int(np.sum((end - after)[inside]))
 
 
 def _arcs_of_blocks(

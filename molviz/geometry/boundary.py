@@ -72,8 +72,7 @@ def _crossing(spheres: Spheres, near: Neighbours) -> tuple[Neighbours, Bools]:
     """The neighbours whose spheres meet in a circle, among balls that lie in no other; and which balls do."""
     count = len(spheres.radius)
     inside: Bools = np.zeros(count, dtype=bool)
-    several = list(blocks(np.diff(near.start), BLOCK_PAIRS))
-    found = in_threads(lambda block: _meeting(spheres, near, block), several)
+    found = in_threads(lambda block: _meeting(spheres, near, block), blocks(np.diff(near.start), BLOCK_PAIRS))
     for buried, _ in found:
         inside[buried] = True
     meets = np.concatenate([meets for _, meets in found] or [inside])

@@ -2,9 +2,9 @@
 
 A ball covers a cap of each sphere it meets, and a crease is the rim of a cap. Of the creases of a molecule with a
 solvent probe nine in ten are covered entirely, and a free one is bounded by a handful of the balls that meet it. Both
-is found here in single precision, with margins: what is rejected is certainly covered, and what is left is measured
-in double precision by ``boundary``. The neighbours of some spheres are padded into arrays (spheres, caps, caps) that
-stay in cache.
+are found here in single precision, with margins: what is rejected is certainly covered, and what is left is measured
+in double precision by ``boundary``. The caps of some spheres are padded into arrays (spheres, caps) that stay in cache,
+the largest first, as these alone cover most rims.
 """
 
 from typing import NamedTuple

@@ -80,9 +80,7 @@ def _hidden_by_sticks(sticks: StickOccluders, of: StickCurves, curve: Ints, stic
     return _behind(sticks, of.curves, curve[rows], stick[rows], count)
 
 
-def hidden_by_sticks(
-    sticks: StickOccluders, curves: Curves, near: Neighbours, count: int
-) -> list[Hidden]:
+def hidden_by_sticks(sticks: StickOccluders, curves: Curves, near: Neighbours, count: int) -> list[Hidden]:
     """Return what sticks hide of creases and horizons, in blocks, shared by threads; no horizon its own sticks at a
     joint: what they hide lies inside them.
 
