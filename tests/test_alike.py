@@ -5,27 +5,16 @@ import zlib
 from functools import cache
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import molviz
 from molviz.picture.style import STYLES
-from tests.render import (
-    needs_chromium,
-    needs_ghostscript,
-    needs_poppler,
-    seen_by_cairo,
-    seen_by_chromium,
-    seen_by_ghostscript,
-    seen_by_poppler,
-    seen_by_resvg,
-)
+from tests.alike import MOST, difference
+from tests.render import needs_chromium, needs_ghostscript, needs_poppler
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*without element")
 SAMPLES = Path(__file__).parent.parent / "samples"
-PIXELS = 3  # to the point: about 900 across
 WIDTH = 288  # points, of the drawing
-MOST = 0.01  # of full scale, the mean difference
 STYLED = [("1hpv.pdb.gz", style) for style in ("goodsell", "flat", "line", "shaded")]
 STYLED += [("c60.xyz", style) for style in ("cel", "hatch", "print")]
 # Ghostscript (in PDF) and poppler's own rasteriser paint every part of a pixel that a shape touches: lines of a pixel
@@ -38,66 +27,34 @@ def drawn(name: str, style: str) -> molviz.Drawing:
     return molviz.draw(SAMPLES / name, style=style, width=WIDTH, background="white", no_water=True)
 
 
-def page_pixels(drawing: molviz.Drawing) -> tuple[int, int]:
-    width, height = re.search(r'viewBox="0 0 (\d+) (\d+)"', drawing.svg()).groups()
-    return PIXELS * int(width), PIXELS * int(height)
-
-
-@cache
-def by_resvg(name: str, style: str) -> np.ndarray:
-    drawing = drawn(name, style)
-    return seen_by_resvg(drawing.to("svg"), *page_pixels(drawing)).astype(float)
-
-
-def on_page(image: np.ndarray, eps: bytes, shape: tuple[int, ...]) -> np.ndarray:
-    """The image of an EPS on its whole page: what is outside of the bounding box is white."""
-    x0, _, _, y1 = (int(x) for x in re.search(rb"%%BoundingBox: (\d+) (\d+) (\d+) (\d+)", eps).groups())
-    whole, top, left = np.full(shape, 255.0), shape[0] - PIXELS * y1, PIXELS * x0
-    whole[top : top + image.shape[0], left : left + image.shape[1]] = image
-    return whole
-
-
-def difference(image: np.ndarray, name: str, style: str) -> float:
-    usual = by_resvg(name, style)
-    assert image.shape == usual.shape and 0.1 < (usual < 250).any(axis=2).mean() < 0.9
-    return float(np.abs(image - usual).mean()) / 255
-
-
 @needs_chromium
 @pytest.mark.parametrize(("name", "style"), STYLED)
 def test_svg_in_a_browser(name: str, style: str) -> None:
-    drawing = drawn(name, style)
-    image = seen_by_chromium(drawing.to("svg"), *page_pixels(drawing)).astype(float)
-    assert difference(image, name, style) < MOST
+    assert difference(drawn(name, style), "SVG by Chromium") < MOST
 
 
 @needs_ghostscript
 @pytest.mark.parametrize(("name", "style"), FEWER_LINES)
 def test_pdf_by_ghostscript(name: str, style: str) -> None:
-    image = seen_by_ghostscript(drawn(name, style).to("pdf"), 72 * PIXELS).astype(float)
-    assert difference(image, name, style) < MOST
+    assert difference(drawn(name, style), "PDF by ghostscript") < MOST
 
 
 @needs_poppler
 @pytest.mark.parametrize(("name", "style"), STYLED)
 def test_pdf_by_poppler_with_cairo(name: str, style: str) -> None:
-    image = seen_by_cairo(drawn(name, style).to("pdf"), 72 * PIXELS).astype(float)
-    assert difference(image, name, style) < MOST
+    assert difference(drawn(name, style), "PDF by poppler with cairo") < MOST
 
 
 @needs_poppler
 @pytest.mark.parametrize(("name", "style"), FEWER_LINES)
 def test_pdf_by_poppler(name: str, style: str) -> None:
-    image = seen_by_poppler(drawn(name, style).to("pdf"), 72 * PIXELS).astype(float)
-    assert difference(image, name, style) < MOST
+    assert difference(drawn(name, style), "PDF by poppler") < MOST
 
 
 @needs_ghostscript
 @pytest.mark.parametrize(("name", "style"), STYLED)
 def test_eps_by_ghostscript(name: str, style: str) -> None:
-    eps = drawn(name, style).to("eps")
-    image = on_page(seen_by_ghostscript(eps, 72 * PIXELS).astype(float), eps, by_resvg(name, style).shape)
-    assert difference(image, name, style) < MOST
+    assert difference(drawn(name, style), "EPS by ghostscript") < MOST
 
 
 def streams(pdf: bytes) -> bytes:
