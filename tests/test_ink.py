@@ -524,3 +524,23 @@ def test_shapes_of_one_colour_become_one_and_keep_all_loops() -> None:
         ]
         mine = loops(joined)[joined.shape_start[number] : joined.shape_start[number + 1]]
         assert [loop.c.tolist() for loop in rows] == [loop.c.tolist() for loop in mine]
+
+
+@pytest.mark.parametrize("distance", DISTANCES)
+def test_a_line_between_groups_that_goes_on_as_a_crease_has_no_gap(distance: float | None) -> None:
+    """Its short parts are no spurs, and it does not end in corners; all arcs longer than 0.1 Å have ink."""
+    seen = 0
+    for seed in range(4):
+        scene = random_spheres(seed, 60, 8.0)
+        view = file_axes(scene, distance)
+        view_map = map_of(scene, view)
+        runs = horizon_runs(view_map, view)
+        group = np.arange(60) % 2
+        widths = line_widths(runs, group, np.zeros(60), STYLE, SCALE, crease=0.1)
+        middle = inked_arcs(runs, widths)[2]
+        between = np.append(group, -1)[view_map.left] != np.append(group, -1)[view_map.right]
+        arcs = np.flatnonzero((runs.run_of_arc >= 0) & between & (view_map.right != BACKGROUND))
+        arcs = arcs[view_map.arcs.lengths()[arcs] > 0.1]
+        assert (middle[arcs] > 0).all()
+        seen += len(arcs)
+    assert seen > 100

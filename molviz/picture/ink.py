@@ -109,7 +109,7 @@ def line_widths(
 
     def ending() -> tuple[Floats, Ints]:
         width[width < thinnest] = 0.0
-        width[_spurs(runs, width, SPUR_SHARE * inside)] = 0.0
+        width[_spurs(runs, width, SPUR_SHARE * inside, foreign & (crease > 0))] = 0.0
         entering, ends = _entering(width, runs, np.where(foreign, crease, 0.0))
         entering[entering < thinnest] = 0.0
         return _joining(entering, runs, ends), ends
@@ -202,14 +202,15 @@ def _entering(width: Floats, runs: HorizonRuns, least: Floats) -> tuple[Floats, 
     """The widths, fading to ``least`` (s,) where horizons enter balls, and the vertices' rows (2, m) where lines end.
 
     A line that enters a ball just after another has passed under it makes a corner with that one: it ends there, as
-    wide as it is.
+    wide as it is, unless it goes on beyond as a line and then as a crease.
     """
     owner, ends = runs.owner(), runs.ends.copy()
     for end, distance in enumerate(distances_from_ends(runs)):
         row, away = _last_vertices(width, runs, end)
         met = np.where(away < np.inf, widest_other(width, runs, row) > 0, True)
         enters = ~runs.closed & (runs.vertices.on_other_run(runs.ends[end]) < 0)
-        corner = enters & met & (away < CORNER)
+        goes_on = np.maximum.reduceat(np.where(distance < away[owner], least, 0.0), runs.start[:-1]) > 0
+        corner = enters & met & (away < CORNER) & ~goes_on
         ends[end] = np.where(corner, row, ends[end])
         reach = np.where(met, np.minimum(away, FADE), FADE)[owner]
         fades = (enters & ~corner)[owner] & (distance < reach) & (width > least)
@@ -286,8 +287,11 @@ def _joining(width: Floats, runs: HorizonRuns, ends: Ints) -> Floats:
     return eased
 
 
-def _spurs(runs: HorizonRuns, width: Floats, thin: float) -> Bools:
-    """Which samples belong to stretches of line that are short, and thin or without another line at either end."""
+def _spurs(runs: HorizonRuns, width: Floats, thin: float, goes_on: Bools) -> Bools:
+    """Which samples belong to stretches of line that are short, and thin or without another line at either end.
+
+    None is a spur of which a part (s,) ``goes_on`` as a crease where the horizon ends.
+    """
     owner, drawn = runs.owner(), width > 0
     first = np.flatnonzero(drawn & ~np.append(False, drawn[:-1] & (owner[1:] == owner[:-1]))[: len(drawn)])
     last = np.flatnonzero(drawn & ~np.append(drawn[1:] & (owner[1:] == owner[:-1]), False)[: len(drawn)])
@@ -300,6 +304,8 @@ def _spurs(runs: HorizonRuns, width: Floats, thin: float) -> Bools:
     meets = joins[0].astype(int) + joins[1] + _met_by_others(runs, width, first, last)
     size = np.maximum.reduceat(width, first) if len(first) else np.empty(0)
     spur = (length < SPUR) & ~runs.closed[run] & ((size < thin) | (meets == 0) | ((length < STUB) & (meets < 2)))
+    if len(first):
+        spur &= ~np.logical_or.reduceat(goes_on, first)
     of_stretch = np.cumsum(np.bincount(first, minlength=len(drawn))) - 1
     return np.asarray(drawn & (spur[of_stretch] if len(spur) else False))
 
