@@ -7,6 +7,7 @@ import pytest
 
 from molviz.curves import Paths
 from molviz.model.spheres import Spheres
+from molviz.model.sticks import Sticks
 from molviz.picture import shading
 from molviz.picture.page import Placement
 from molviz.picture.regions import shape_of
@@ -53,7 +54,7 @@ def test_contact_shade_is_where_some_skirt_is_above_all_spheres() -> None:
     jumps = deepest_jumps(runs, len(view_map.spheres.radius))[seen_spheres(view_map)]
     low, high = (corner[:2] for corner in spheres.box())
     points = np.random.default_rng(1).uniform(low, high, (2_000, 2))
-    hung = [(step, shading._hung_from(spheres, jumps, view, step)) for step in shade.steps]
+    hung = [(step, shading._hung_from(spheres, jumps, len(jumps), view, step)) for step in shade.steps]
     hung = [(step, rows) for step, rows in hung if len(rows)]
     assert opacity == [step.opacity for step, _ in hung] and len(hung) > 2
     surface = heights(view_map.spheres, points).max(axis=1)
@@ -63,6 +64,39 @@ def test_contact_shade_is_where_some_skirt_is_above_all_spheres() -> None:
         found, clear = inside(shape_of(steps, number), points)
         assert clear.mean() > 0.7 and np.any(found[clear])
         assert np.array_equal(found[clear], (skirt > surface)[clear])
+
+
+def capsule(spheres: Spheres, first: int, second: int, wider: float = 0.0, lower: float = 0.0) -> Spheres:
+    """Balls so close that nobody can tell them from the stick between two balls of one size."""
+    share = np.linspace(0.0, 1.0, 300)[:, None]
+    center = spheres.center[first] + share * (spheres.center[second] - spheres.center[first]) - [0.0, 0.0, lower]
+    return Spheres(center, np.full(len(center), spheres.radius[first] + wider))
+
+
+@pytest.mark.parametrize("tilt", [0.0, 0.8])
+def test_contact_shade_falls_on_sticks_and_from_them(tilt: float) -> None:
+    """A stick over a large ball, and under a middling one; the same by balls without number."""
+    center = np.array([[-2.0, 0.0, tilt], [2.0, 0.3, -tilt], [0.5, 0.2, -7.5], [-1.2, 0.1, 5.0]])
+    spheres = Spheres(center, np.array([0.3, 0.3, 3.0, 0.7]))
+    view = View(np.eye(3), np.zeros(3), None)
+    sticks = Sticks(np.array([0]), np.array([1]), np.array([0.3]), np.zeros((1, 3)))
+    view_map = Scene(spheres, view, sticks).map(view)[0]
+    step = ShadeStep(0.65, 2.65, 0.2)
+    shade = Shade([step], [step], 1000)
+    steps, _ = contact_steps(view_map, view, horizon_runs(view_map, view), shade, AS_IS)
+    points = np.random.default_rng(3).uniform([-3.5, -3.5], [3.5, 3.5], (6_000, 2))
+    surface = np.maximum(heights(spheres, points).max(axis=1), heights(capsule(spheres, 0, 1), points).max(axis=1))
+    skirts_of = Spheres(center - [0.0, 0.0, step.low], spheres.radius + step.reach)
+    balls = heights(skirts_of.take(np.array([0, 1, 3])), points).max(axis=1)  # nothing lies behind the large one
+    below_stick = heights(capsule(spheres, 0, 1, step.reach, step.low), points).max(axis=1)
+    skirt = np.maximum(balls, below_stick)
+    found, clear = inside(steps, points)
+    with np.errstate(invalid="ignore"):  # neither above the page: not a number
+        sure = clear & (np.abs(skirt - surface) >= 0.1)
+    assert np.array_equal(found[sure], (skirt > surface)[sure])
+    shaded = found & sure
+    assert (shaded & (np.abs(surface) < 1.2)).sum() > 20  # on the stick
+    assert (shaded & (surface < -3.0) & (below_stick > balls)).sum() > 200  # from it
 
 
 def test_large_scenes_have_their_own_steps_and_impossible_skirts_none() -> None:

@@ -53,7 +53,7 @@ from molviz.picture.regions import (
     shapes_of,
     stacked,
 )
-from molviz.picture.shading import ball_gradients, contact_steps, light_bands
+from molviz.picture.shading import ball_gradients, contact_steps, light_bands, shaded_with_sticks
 from molviz.picture.stick_light import StickLight
 from molviz.picture.tints import entity_tints
 from molviz.threads import both
@@ -118,7 +118,7 @@ class MapComposer:
         if self.fill != "none":
             many = len(self.looks.fill) > MANY  # both ask for the looks, which are known now
             regions, _ = both(self.regions, lambda: self.inking, many)
-            layers += [regions, *self.shade(), *self.light(), *self.sticks()]
+            layers += [regions, *self.sticks(), *self.shade(), *self.light()]
         return [*layers, *self.hatching(), *self.edges(), *self.ink()]
 
     @cached_property
@@ -232,9 +232,10 @@ class MapComposer:
         """Return the contact shade, in the deep colour of whatever it falls on."""
         if not self.style.shade.steps or self.options.is_mask:
             return []
-        steps, opacity = contact_steps(self.map, self.view, self.runs, self.style.shade, self.placement)
+        steps, opacity = contact_steps(self.solids, self.view, self.runs, self.style.shade, self.placement)
         distinct, label = np.unique(self.looks.shade, axis=0, return_inverse=True)
-        return self.shade_layer("contact shade", steps, opacity, label.ravel(), colors_of(distinct))
+        on = self.map if shaded_with_sticks(self.solids) else self.solids.of_spheres()
+        return self.shade_layer("contact shade", on, steps, opacity, label.ravel(), colors_of(distinct))
 
     def light(self) -> list[Layer]:
         """Return the bands of light."""
@@ -243,22 +244,22 @@ class MapComposer:
             return []
         dark, bright = light_bands(self.map, self.view, light, self.placement)
         everything = np.zeros(len(self.map.spheres.radius), dtype=np.int64)
+        balls = self.solids.of_spheres()
         return [
-            *self.shade_layer("terminators", *dark, everything, [light.dark]),
-            *self.shade_layer("highlights", *bright, everything, [light.bright]),
+            *self.shade_layer("terminators", balls, *dark, everything, [light.dark]),
+            *self.shade_layer("highlights", balls, *bright, everything, [light.bright]),
         ]
 
     def shade_layer(
-        self, name: str, steps: Paths, opacity: list[float], label: Ints, colors: list[Color]
+        self, name: str, on: VisibilityMap, steps: Paths, opacity: list[float], label: Ints, colors: list[Color]
     ) -> list[Layer]:
-        """Return steps clipped to the regions of each label (s,) and painted in its colour; none without steps."""
+        """Return steps clipped to the map's regions of each label (s,), in its colour; none without steps."""
         if not opacity:
             return []
-        balls = self.solids.of_spheres()
-        clip = merged_regions(balls, self.arcs, label)
+        clip = merged_regions(on, self.arcs, label)
         keys = np.column_stack([label, self.looks.fill])
         _, first, tone_label = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-        tone = merged_regions(balls, self.arcs, tone_label.ravel())
+        tone = merged_regions(on, self.arcs, tone_label.ravel())
         sphere = first[tone.label]
         place = np.searchsorted(clip.label, label[sphere])
         return [

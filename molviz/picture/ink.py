@@ -32,7 +32,7 @@ SPUR = 1.1  # ångström: shorter lines are dropped if they are thin or meet no 
 THINNER = 0.4  # of a line's width: it is not made so thin where another one ends with it
 STUB = 0.5  # ångström: shorter lines are dropped unless they meet two others
 SPUR_SHARE = 0.4  # of the widest inner line: such lines are thin
-WIDEST_SHARE = 0.5  # ångström times the detail: no line is wider, lest it hide sticks and small balls
+WIDEST_SHARE = 0.5  # ångström times the detail: no line is wider, nor than its stick is thick, lest it hide these
 FARTHER_THINNER = 0.3  # by which lines of the farthest spheres are thinner
 
 
@@ -103,13 +103,14 @@ def line_widths(
     silhouette, between, inside = (pen.at(scale) for pen in (style.silhouette, style.between, style.inside))
     ramp = smooth_step((runs.jump - style.faint) / (style.full - style.faint))
     width = np.where(background, silhouette, np.where(foreign, between * (0.5 + 0.5 * ramp), inside * ramp))
-    width = np.minimum(width, WIDEST_SHARE * runs.detail[runs.owner()])
+    widest = np.minimum(WIDEST_SHARE * runs.detail, runs.stick)
+    width = np.minimum(width, widest[runs.owner()])
     width = _smoothed(_fading(width * (1.0 - FARTHER_THINNER * far[own]), runs), runs, SIGMA)
     thinnest = max(THINNEST, THINNEST_SHARE * inside)
 
     def ending() -> tuple[Floats, Ints]:
         width[width < thinnest] = 0.0
-        width[_spurs(runs, width, SPUR_SHARE * inside, foreign & (crease > 0))] = 0.0
+        width[_spurs(runs, width, SPUR_SHARE * np.minimum(inside, widest), foreign & (crease > 0))] = 0.0
         entering, ends = _entering(width, runs, np.where(foreign, crease, 0.0))
         entering[entering < thinnest] = 0.0
         return _joining(entering, runs, ends), ends
@@ -133,11 +134,12 @@ def _along(runs: HorizonRuns, block: slice, reach: float) -> Iterator[tuple[floa
     """
     start, size = runs.start[block], np.diff(runs.start)[block]
     begin, count = np.repeat(start, size), np.repeat(size, size)
-    closed, place = np.repeat(runs.closed[block], size), np.arange(len(begin)) + start[0] - begin
+    closed, place = np.flatnonzero(np.repeat(runs.closed[block], size)), np.arange(len(begin)) + start[0] - begin
+    last = count - 1
     steps = int(np.ceil(reach / runs.spacing))
     for step in range(-steps, steps + 1):
-        wrapped = np.mod(place + step, np.maximum(count - 1, 1))  # the last sample of a closed run is the first
-        other = np.where(closed, wrapped, np.clip(place + step, 0, count - 1))
+        other = np.minimum(np.maximum(place + step, 0), last)
+        other[closed] = np.mod(place[closed] + step, last[closed])  # the last sample of a closed run is the first
         yield abs(step) * runs.spacing, begin + other
 
 
@@ -287,10 +289,10 @@ def _joining(width: Floats, runs: HorizonRuns, ends: Ints) -> Floats:
     return eased
 
 
-def _spurs(runs: HorizonRuns, width: Floats, thin: float, goes_on: Bools) -> Bools:
+def _spurs(runs: HorizonRuns, width: Floats, thin: Floats, goes_on: Bools) -> Bools:
     """Which samples belong to stretches of line that are short, and thin or without another line at either end.
 
-    None is a spur of which a part (s,) ``goes_on`` as a crease where the horizon ends.
+    Thinner than ``thin`` (m,) is thin. None is a spur of which a part (s,) ``goes_on`` as a crease where its run ends.
     """
     owner, drawn = runs.owner(), width > 0
     first = np.flatnonzero(drawn & ~np.append(False, drawn[:-1] & (owner[1:] == owner[:-1]))[: len(drawn)])
@@ -303,7 +305,7 @@ def _spurs(runs: HorizonRuns, width: Floats, thin: float, goes_on: Bools) -> Boo
     ]
     meets = joins[0].astype(int) + joins[1] + _met_by_others(runs, width, first, last)
     size = np.maximum.reduceat(width, first) if len(first) else np.empty(0)
-    spur = (length < SPUR) & ~runs.closed[run] & ((size < thin) | (meets == 0) | ((length < STUB) & (meets < 2)))
+    spur = (length < SPUR) & ~runs.closed[run] & ((size < thin[run]) | (meets == 0) | ((length < STUB) & (meets < 2)))
     if len(first):
         spur &= ~np.logical_or.reduceat(goes_on, first)
     of_stretch = np.cumsum(np.bincount(first, minlength=len(drawn))) - 1

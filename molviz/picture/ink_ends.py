@@ -18,9 +18,11 @@ from molviz.visibility.horizon_runs import HorizonRuns
 OUTSIDE = 0.6  # of the width lies outside the horizon
 INSIDE = OUTSIDE - 1.0
 NARROW = 75.0  # degrees: wider wedges are left as they are
+NEARLY_NARROW = 0.4  # cosine between the sides where lines meet, from which on no wedge gets narrow farther on
 COVERS = 0.8  # of a line's width: a line so wide hides its end
 OVERLAPPING = 0.97 * OUTSIDE  # of a line's width: as far outside its horizon ink beside it begins
 LONGEST_MITRE = 1.5  # of the width of the wider line: sides that would meet farther away make a spike so long
+OVERLAP = 0.1  # of a line's width by which lines that make a corner lie on each other: no seam shows between them
 SMOOTH = 0.99  # cosine between the normals of two lines that go on in each other: no side crosses that of the other
 HIDDEN = 0.9  # of the inner part of a line under which others end
 TOUCHES = 3  # rounds in which the places are found where a disc touches two lines of varying width
@@ -129,19 +131,21 @@ def mitres(runs: HorizonRuns, ends: Ends, share: float) -> Mitre:
     point, exists = _crossing(own, above, reach, above.radius + _level(ends, share)[rows])
     away = np.where(exists[:, None], point - own.point, -own.normal - above.normal)
     longest = LONGEST_MITRE * np.maximum(width, mate_width)
-    bent = dot(own.normal, above.normal) < SMOOTH
-    near = exists & bent & (np.hypot(*away.T) <= longest)
-    spike = ~near & bent & (mate_width > 0) & (share < 0)
+    smooth = dot(own.normal, above.normal) > SMOOTH
+    near = exists & ~smooth & (np.hypot(*away.T) <= longest)
+    spike = ~near & ~smooth & (mate_width > 0) & (share < 0)
+    end, smooth = own.outwards(share * width), smooth & (mate_width > 0)
     point = np.where(spike[:, None], own.point + longest[:, None] * _unit(away), point)
+    point = np.where(smooth[:, None], end + OVERLAP * width[:, None] * ends.onwards()[rows], point)
     place = ends.place[rows] + own.samples_to(point)
     before = ends.onward[rows] * (ends.place[rows] - place)
     near &= before < ends.most[rows]
     found.cut[rows] = near & (before > 0)
     found.place[rows] = np.where(found.cut[rows], place, ends.place[rows])
-    found.beyond[rows] = ends.tip[rows] & (spike | near & (before <= 0))
-    half = (own.outwards(share * width) + point) / 2
+    found.beyond[rows] = ends.tip[rows] & (spike | smooth | near & (before <= 0))
+    half = (end + point) / 2
     round_half = own.center() + reach[:, None] * _unit(half - own.center())
-    found.middle[rows], found.point[rows] = np.where(spike[:, None], half, round_half), point
+    found.middle[rows], found.point[rows] = np.where((spike | smooth)[:, None], half, round_half), point
     return found
 
 
@@ -160,7 +164,8 @@ def discs(runs: HorizonRuns, ends: Ends, width: Floats, all_ink: Floats, share: 
     Discs that touch a line at distance a from a horizon that curves like a circle of radius r have their centres on the
     circle of radius r + a ± neck / 2 about the same point. Widths are those at the places that are touched.
     """
-    rows = np.flatnonzero((ends.host >= 0) & (ends.width > 0) & (ends.host_width > 0))
+    narrow = np.sign(share) * ends.facing < NEARLY_NARROW
+    rows = np.flatnonzero((ends.host >= 0) & (ends.width > 0) & (ends.host_width > 0) & narrow)
     run, host = ends.run[rows], ends.host[rows]
     own, above = ends.frame.take(rows), frames_at(runs, host, ends.host_place[rows])
     place, host_place = ends.place[rows], ends.host_place[rows]

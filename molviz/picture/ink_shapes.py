@@ -8,7 +8,7 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths, PlaneArcs, straight_pieces
 from molviz.geometry.rows import expand, lists_taken, offsets
 from molviz.picture.ink import THINNEST, Widths, at_places
-from molviz.picture.ink_ends import INSIDE, OUTSIDE, Disc, Ends, Mitre, discs, ends_of, mitres
+from molviz.picture.ink_ends import INSIDE, OUTSIDE, OVERLAP, Disc, Ends, Mitre, discs, ends_of, mitres
 from molviz.picture.ink_strokes import Strokes, frames_at, strokes_of
 from molviz.picture.regions import stacked
 from molviz.vectors import cross, dot
@@ -16,8 +16,8 @@ from molviz.visibility.horizon_runs import HorizonRuns
 
 TOLERANCE = 0.01  # ångström by which a side may be off
 LONGEST_TURN = 2.0  # radians of a horizon along which one arc may run
+GROWTH = 1.0  # by which arcs may be longer, of how far they are from shorter ones
 NECK = 0.4  # of the widest line: where less is left between two lines that meet, ink fills it
-OVERLAP = 0.1  # of a line's width by which lines that make a corner lie on each other: no seam shows between them
 NOTHING = 1e-9  # square ångström: a stroke of less ink is none, and ångström: shorter pieces are none
 ALL = 0.995  # of a line that is dark: it hides its own ink
 OUTER, END, INNER, START = range(4)  # the parts of a loop
@@ -54,11 +54,12 @@ def outlined(
     ``width`` (s,) is that of the strokes, ``all_ink`` that of all inks together; wedges between lines are filled as far
     as they are narrower than ``neck`` ångström.
     """
-    ends, pieces, turns = ends_of(runs, strokes, width, all_ink), [], []
+    ends, taken, pieces, turns = ends_of(runs, strokes, width, all_ink), _arcs_taken(runs, width), [], []
     for part, share in ((OUTER, OUTSIDE), (INNER, INSIDE)):
         disc, mitre = discs(runs, ends, width, all_ink, share, neck), mitres(runs, ends, share)
         most = np.where(disc.fits | mitre.cut | (share < 0), np.inf, _most_outside(ends))
-        stroke, number, points = _side(runs, strokes, width, share, np.where(disc.fits, disc.place, mitre.place), most)
+        stops = np.where(disc.fits, disc.place, mitre.place)
+        stroke, number, points = _side(runs, strokes, taken, share * width, stops, most)
         pieces.append(_along_side(stroke, number, points, part))
         first = number == 0
         turns.append(_Turn(np.concatenate([points[first], points[np.roll(first, -1)]]), disc, mitre))
@@ -86,14 +87,14 @@ def _most_outside(ends: Ends) -> Floats:
 
 
 def _side(
-    runs: HorizonRuns, strokes: Strokes, width: Floats, share: float, stops: Floats, most: Floats
+    runs: HorizonRuns, strokes: Strokes, taken: Floats, outside: Floats, stops: Floats, most: Floats
 ) -> tuple[Ints, Ints, Floats]:
     """The points of one side of all strokes: the stroke of each, its number from 0, and where it is.
 
-    There are two for each arc of a circle, and one more: places are equally far apart in numbers of arcs. At the places
-    (2k,) where they start and stop they are at ``most`` (2k,) outside.
+    There are two for each arc of a circle, and one more: places are equally far apart in numbers of arcs ``taken`` (s,)
+    so far. Points lie ``outside`` (s,) of the horizon, and where sides start and stop (2k,) at ``most`` (2k,) so far.
     """
-    taken, count = _arcs_taken(runs, width), len(strokes.run)
+    count = len(strokes.run)
     first, last = stops[:count], stops[count:]
     low, high = _taken_at(runs, taken, strokes.run, first), _taken_at(runs, taken, strokes.run, last)
     arcs = np.maximum(np.ceil(high - low), 1 + strokes.whole).astype(np.int64)
@@ -102,7 +103,7 @@ def _side(
     wanted = low[stroke] + (high - low)[stroke] * number / (2 * arcs)[stroke]
     place = _place_where(runs, taken, strokes.run[stroke], wanted)
     place = np.where(at_start, first[stroke], np.where(at_end, last[stroke], place))
-    offset = share * at_places(width, runs, strokes.run[stroke], place)
+    offset = at_places(outside, runs, strokes.run[stroke], place)
     offset = np.where(at_start, np.minimum(offset, most[:count][stroke]), offset)
     offset = np.where(at_end, np.minimum(offset, most[count:][stroke]), offset)
     return stroke, number, frames_at(runs, strokes.run[stroke], place).outwards(offset)
@@ -122,7 +123,21 @@ def _arcs_taken(runs: HorizonRuns, width: Floats) -> Floats:
     major, area = runs.arcs.major(), np.abs(cross(runs.arcs.u, runs.arcs.v))
     bend = OUTSIDE * change / step**2 + (2 * np.maximum(major - area / major, 0.0) / major**2)[owner]
     taken = step * (np.sqrt(bend / (8 * TOLERANCE)) / 2 + 1 / (LONGEST_TURN * major[owner]))
+    taken = 1.0 / _graded(1.0 / taken, runs)
     return np.asarray(np.cumsum(taken) - taken)
+
+
+def _graded(size: Floats, runs: HorizonRuns) -> Floats:
+    """The sizes of arcs, in samples, less where smaller ones are near: the least of ``size + GROWTH · samples away``.
+
+    An arc through three points is near to what lies between them only if its two chords are about equally long.
+    """
+    owner, place = runs.owner(), GROWTH * np.arange(len(size))
+    apart = (1.0 + GROWTH) * len(size) * owner  # so far that no run's sizes count in another
+    least = np.minimum(size, len(size))
+    least = np.minimum.accumulate(least - place - apart) + place + apart
+    least = np.minimum.accumulate((least + place + apart)[::-1])[::-1] - place - apart
+    return np.asarray(least)
 
 
 def _taken_at(runs: HorizonRuns, taken: Floats, run: Ints, place: Floats) -> Floats:
@@ -185,8 +200,9 @@ def _bulge(ends: Ends, inner: Mitre) -> Floats:
 def _loops(strokes: Strokes, pieces: _Pieces) -> Paths:
     """One loop for each stroke, or two where it is a ring."""
     number = 2 * pieces.stroke + (strokes.whole[pieces.stroke] & (pieces.part == INNER))
-    order = np.lexsort((pieces.along, pieces.part, number))
-    _, loop_first = np.unique(number[order], return_index=True)
+    along = pieces.along - pieces.along.min(initial=0)
+    order = np.argsort((4 * number + pieces.part) * (along.max(initial=0) + 1) + along, kind="stable")
+    loop_first = np.flatnonzero(np.diff(number[order], prepend=-1))
     arcs = arcs_through(pieces.start[order], pieces.middle[order], pieces.end[order])
     shape_start = offsets(pieces.stroke[order][loop_first], len(strokes.run))
     return Paths(arcs, np.append(loop_first, len(order)), shape_start)

@@ -15,8 +15,10 @@ from molviz.visibility.eye import projection_of
 from molviz.visibility.horizon_runs import ATOM, HorizonRuns
 from molviz.visibility.map import VisibilityMap
 from molviz.visibility.overlay import (
+    beads_on,
     drop_at_edge,
     on_ledges,
+    seen_halves,
     seen_of_copies,
     seen_spheres,
     shaded_sides,
@@ -26,16 +28,22 @@ from molviz.visibility.view import View
 
 LEDGE_FROM = 1.0  # ångström: wider skirts hang from ledges only, not from lone tips
 LEDGE_WITHIN = 1.6  # ångström beyond the skirt's reach
+BEAD_SAG = 0.02  # ångström: as deep below sticks lie the rows of beads on which shade falls, at most
+MOST_HALVES = 3000  # of sticks for which contact shade is worth its time
+SKIRT_SAG = 0.05  # of the skirt's reach, by which that of a row of balls may be narrower than that of their stick
 SPECK = 0.1  # of the square of the usual radius: smaller bands of light look like dirt
 RADIUS_STEP = 0.03  # of a radius: the eye tells no gradients apart that differ by less
 FOCUS = 0.55  # of the radius, how far from the middle a ball is brightest, times the light's x and y
 LEDGE_COUNT = 7  # spheres that make a ledge
 
 
-def deepest_jumps(runs: HorizonRuns, count: int) -> Floats:
-    """Return the deepest finite jump (count,) along the horizon of each sphere, 0 where there is none."""
+def deepest_jumps(runs: HorizonRuns, count: int, straight: bool = False) -> Floats:
+    """Return the deepest finite jump (count,) along the horizon of each sphere, 0 where there is none.
+
+    Or along the ``straight`` lines of the sticks that end there.
+    """
     deepest = np.zeros(count)
-    rows = np.isfinite(runs.jump)
+    rows = np.isfinite(runs.jump) & (runs.straight() == straight)[runs.owner()]
     np.maximum.at(deepest, runs.sphere[runs.owner()[rows]], runs.jump[rows])
     return deepest
 
@@ -43,22 +51,36 @@ def deepest_jumps(runs: HorizonRuns, count: int) -> Floats:
 def contact_steps(
     view_map: VisibilityMap, view: View, runs: HorizonRuns, shade: Shade, placement: Placement
 ) -> tuple[Paths, list[float]]:
-    """Return the steps of the contact shade that cover anything, one shape each, and their opacities."""
-    seen = seen_spheres(view_map)
-    spheres, jumps = view_map.spheres.take(seen), deepest_jumps(runs, len(view_map.spheres.radius))[seen]
-    if len(view_map.sticks.length):
-        jumps = np.where(spheres.radius >= ATOM, jumps, 0.0)  # those of small balls would lie on their sticks
-    steps = shade.large_steps if len(seen) >= shade.large_from else shade.steps
-    parts = [
-        (_region(spheres, skirts(spheres, rows, step.reach, step.low, view), view, placement), step.opacity)
-        for step in steps
-        if len(rows := _hung_from(spheres, jumps, view, step))
-    ]
+    """Return the steps of the contact shade that cover anything, one shape each, and their opacities.
+
+    Sticks that are ``shaded_with_sticks`` count as rows of balls; otherwise atoms alone count.
+    """
+    balls, halves, sticks = seen_spheres(view_map), seen_halves(view_map), view_map.sticks
+    spheres = view_map.spheres.take(balls)
+    of_ball, of_line = (deepest_jumps(runs, len(view_map.spheres.radius), straight) for straight in (False, True))
+    if not shaded_with_sticks(view_map):
+        halves, of_ball[view_map.spheres.radius < ATOM] = halves[:0], 0.0
+    surfaces = _joined(spheres, beads_on(sticks, halves, 0.0, BEAD_SAG)[0])
+    parts = []
+    for step in shade.large_steps if len(balls) >= shade.large_from else shade.steps:
+        beads, half = beads_on(sticks, halves, step.reach, SKIRT_SAG * step.reach)
+        hanging, jumps = _joined(spheres, beads), np.append(of_ball[balls], of_line[sticks.ends.sphere[half]])
+        if len(rows := _hung_from(hanging, jumps, len(balls), view, step)):
+            copies = skirts(hanging, rows, step.reach, step.low, view)
+            parts.append((_region(surfaces, copies, view, placement), step.opacity))
     return _stacked(parts)
 
 
-def _hung_from(spheres: Spheres, jumps: Floats, view: View, step: ShadeStep) -> Ints:
-    """The spheres whose skirts can be seen: those with something deeper than the drop behind their edges."""
+def shaded_with_sticks(view_map: VisibilityMap) -> bool:
+    """Whether contact shade falls on sticks and from them: where there are many, no eye sees it."""
+    return len(seen_halves(view_map)) <= MOST_HALVES
+
+
+def _hung_from(spheres: Spheres, jumps: Floats, atoms: int, view: View, step: ShadeStep) -> Ints:
+    """The spheres whose skirts can be seen: those with something deeper than the drop behind their edges.
+
+    The first ``atoms`` of them make ledges.
+    """
     drop = drop_at_edge(spheres.radius, step.reach, step.low)
     rows = np.flatnonzero((drop > 0) & (jumps > drop))
     if step.reach <= LEDGE_FROM or not len(rows):
@@ -66,7 +88,12 @@ def _hung_from(spheres: Spheres, jumps: Floats, view: View, step: ShadeStep) -> 
     projection = projection_of(view)
     page, height = projection.page_points(spheres.center), projection.nearness(spheres.center)
     below = (height - drop / 2)[rows]
-    return rows[on_ledges(page, height, rows, step.reach + LEDGE_WITHIN, below, LEDGE_COUNT + 1)]
+    of_atoms = np.where(np.arange(len(height)) < atoms, height, -np.inf)
+    return rows[on_ledges(page, of_atoms, rows, step.reach + LEDGE_WITHIN, below, LEDGE_COUNT + 1)]
+
+
+def _joined(one: Spheres, other: Spheres) -> Spheres:
+    return Spheres(*(np.concatenate(columns) for columns in zip(one, other, strict=True)))
 
 
 def light_bands(

@@ -46,7 +46,8 @@ class Vertices(NamedTuple):
 class HorizonRuns(NamedTuple):
     """m runs of consecutive arcs of one horizon each, counter-clockwise about the sphere; ångström on the page."""
 
-    sphere: Ints  # (m,) whose horizon it is
+    sphere: Ints  # (m,) whose horizon it is, or at the end of whose stick it is a line
+    stick: Floats  # (m,) the radius of the stick of which it is a line, infinite for horizons of balls
     arcs: PlaneArcs  # (m,) the whole runs
     detail: Floats  # (m,) 1 for atoms, less for small balls and their sticks: of the ångström by which lines change
     closed: Bools  # (m,) whole turns
@@ -59,6 +60,10 @@ class HorizonRuns(NamedTuple):
     behind: Ints  # (s,) the sphere seen just outside each sample, or BACKGROUND
     spacing: float  # ångström between samples, roughly
     jump: Floats  # (s,) ångström from the horizon to the surface there, infinite before the background
+
+    def straight(self) -> Bools:
+        """Return which runs (m,) are lines of sticks."""
+        return np.isfinite(self.stick)
 
     def owner(self) -> Ints:
         """Return the run of each sample (s,)."""
@@ -112,9 +117,10 @@ def horizon_runs(view_map: VisibilityMap, view: View) -> HorizonRuns:
     )  # fmt: skip
     jump = _jumps(view_map, near, owner_of[solid[owner]], behind, surface)
     closed = origin[first] == target[last]
-    sphere, behind = owner_of[solid], owner_of[behind]
+    stick = np.append(np.full(len(view_map.spheres.radius), np.inf), np.repeat(view_map.sticks.radius, 2))[solid]
     return HorizonRuns(
-        sphere, arcs, detail, closed, *vertices, run_of_arc, place_of_arc, start, t, behind, spacing, jump
+        owner_of[solid], stick, arcs, detail, closed, *vertices, run_of_arc, place_of_arc, start, t, owner_of[behind],
+        spacing, jump,
     )  # fmt: skip
 
 

@@ -9,9 +9,11 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints, distinct
 from molviz.geometry.grid import meeting_pairs
+from molviz.geometry.rows import expand
 from molviz.model.spheres import Spheres
 from molviz.visibility.eye import from_the_eye, projection_of
 from molviz.visibility.map import BACKGROUND, VisibilityMap
+from molviz.visibility.occluders.stick import StickOccluders
 from molviz.visibility.scene import labelled_map
 from molviz.visibility.view import View
 
@@ -21,7 +23,31 @@ MOVED = 1e-3  # of a radius: how far a copy that marks a side of its sphere is m
 def seen_spheres(view_map: VisibilityMap) -> Ints:
     """Return the spheres that have a face, ascending."""
     faces = distinct(view_map.loops.face)
-    return np.asarray(faces[faces != BACKGROUND])
+    return np.asarray(faces[(faces != BACKGROUND) & (faces < len(view_map.spheres.radius))])
+
+
+def seen_halves(view_map: VisibilityMap) -> Ints:
+    """Return the halves of sticks that have a face, from 0, ascending; ``view_map`` tells them from the spheres."""
+    faces = distinct(view_map.loops.face)
+    return np.asarray(faces[faces >= len(view_map.spheres.radius)] - len(view_map.spheres.radius))
+
+
+def beads_on(sticks: StickOccluders, seen: Ints, wider: float, sag: float) -> tuple[Spheres, Ints]:
+    """Return balls along the seen halves of sticks, between those at their ends, and the half of each.
+
+    Balls of radius R at distances h leave ``R − √(R² − h²/4)``, about ``h²/8R``, of the cylinder between them: that is
+    at most ``sag`` when they are ``wider`` by some ångström.
+    """
+    stick = distinct(seen >> 1)
+    radius, length = sticks.radius[stick], sticks.length[stick]
+    count = np.ceil(length / np.sqrt(8 * (radius + wider) * sag)).astype(np.int64)
+    row, number = expand(np.ones_like(count), count)
+    share = number / count[row]
+    half = 2 * stick[row] + (share > 0.5)
+    shown = np.isin(half, seen)
+    stick, share = stick[row[shown]], share[shown]
+    center = sticks.start[stick] + (share * sticks.length[stick])[:, None] * sticks.direction[stick]
+    return Spheres(center, sticks.radius[stick]), half[shown]
 
 
 def seen_of_copies(spheres: Spheres, copies: Spheres, view: View) -> VisibilityMap:
@@ -36,8 +62,7 @@ def seen_of_copies(spheres: Spheres, copies: Spheres, view: View) -> VisibilityM
 
 def skirts(spheres: Spheres, rows: Ints, reach: float, low: float, view: View) -> Spheres:
     """Return copies of the given spheres, larger by ``reach`` and farther from the eye by ``low`` ångström."""
-    enlarged = Spheres(spheres.center[rows], spheres.radius[rows] + reach)
-    return projection_of(view).receded(enlarged, low)
+    return projection_of(view).receded(spheres.take(rows).enlarged(1.0, reach), low)
 
 
 def drop_at_edge(radius: Floats, reach: float, low: float) -> Floats:
