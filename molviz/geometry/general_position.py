@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints
+from molviz.arrays import Bools, Floats, Ints, distinct
 from molviz.errors import InternalError
 from molviz.model.spheres import Spheres
 
@@ -68,8 +68,16 @@ def nudged(spheres: Spheres, times: Ints) -> Spheres:
 
 
 def _first_of_each(spheres: Spheres) -> Ints:
-    table = np.column_stack([spheres.center, spheres.radius])
-    return np.sort(np.unique(table, axis=0, return_index=True)[1])
+    """The rows of the spheres less those that are equal to an earlier one: equal ones have equal sums of columns."""
+    total = spheres.center[:, 0] + np.pi * spheres.center[:, 1] + np.e * spheres.center[:, 2] + spheres.radius
+    order = np.argsort(total, kind="stable")
+    again = np.flatnonzero(total[order][1:] == total[order][:-1])
+    rows = distinct(order[np.append(again, again + 1)])
+    first: Bools = np.ones(len(total), dtype=bool)
+    first[rows] = False
+    table = np.column_stack([spheres.center, spheres.radius])[rows]
+    first[rows[np.unique(table, axis=0, return_index=True)[1]]] = True
+    return np.flatnonzero(first)
 
 
 def _unit_vectors(rows: Ints, attempt: int) -> Floats:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.rows import blocks, expand
+from molviz.geometry.rows import blocks, expand, lists_taken
 from molviz.threads import in_threads
 from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.projection import Projection, images_of
@@ -18,6 +18,7 @@ from molviz.visibility.projection import Projection, images_of
 MOST_CELLS = 2048  # per axis
 BLOCK_ROWS = 1 << 15  # (sphere, cell) rows at a time: their columns stay in cache
 GROUP = 32  # blocks at a time
+CLUSTER = 16  # cells: some hundreds of atoms
 
 
 class _Cells(NamedTuple):
@@ -30,16 +31,26 @@ class _Cells(NamedTuple):
     high: Ints  # (n, 2)
 
 
+class _Clusters(NamedTuple):
+    """Spheres that lie together, the nearest clusters first."""
+
+    sphere: Ints  # (n,) by cluster
+    start: Ints  # (c + 1,) CSR offsets
+    nearest: Floats  # (c,) how near the nearest point of any sphere is
+    cells: _Cells  # (c,) that the bounding boxes touch
+
+
 def possibly_visible(spheres: SphereOccluders, projection: Projection) -> Bools:
     """Return which of n spheres may be seen (n,), in time linear in n for atoms.
 
-    The nearest come first: most spheres are hidden by what covers the page before them, and are done with. What is left
-    is asked again when all is known. No list of all spheres' cells is ever made.
+    The nearest come first: most clusters of spheres are hidden by what covers the page before them, and none of their
+    spheres is looked at. What is left is asked again when all is known. No list of all spheres' cells is ever made.
     """
     cells = _cells(spheres, projection)
+    clusters = _clusters(spheres, cells)
     cover = np.full((int(cells.high[:, 1].max()) + 1) * cells.wide, -np.inf)  # how near each cell is covered
     left: list[Ints] = []
-    for group in _groups(cells, np.argsort(-spheres.nearness())):
+    for group in _groups(cells, clusters, cover):
         for shown, cell, least in in_threads(lambda rows: _bounds(spheres, cells, rows, cover), group):
             left.append(shown)
             np.maximum.at(cover, cell, least)
@@ -50,11 +61,39 @@ def possibly_visible(spheres: SphereOccluders, projection: Projection) -> Bools:
     return visible
 
 
-def _groups(cells: _Cells, order: Ints) -> Iterator[list[Ints]]:
-    """All spheres in that order, in groups of blocks that know of each other's cover only when all are done."""
-    every = [order[block] for block in _blocks(cells, order)]
-    for begin in range(0, len(every), GROUP):
-        yield every[begin : begin + GROUP]
+def _clusters(spheres: SphereOccluders, cells: _Cells) -> _Clusters:
+    """The spheres with centres in one cube of space, ``CLUSTER`` cells wide, as a cluster."""
+    center = spheres.spheres.center
+    cube = np.floor((center - center.min(axis=0)) / (CLUSTER * cells.side)).astype(np.int64)
+    wide = cube.max(axis=0) + 1
+    key = (cube[:, 2] * wide[1] + cube[:, 1]) * wide[0] + cube[:, 0]
+    order = np.argsort(key, kind="stable")
+    start = np.flatnonzero(np.diff(key[order], prepend=-1))
+    nearest = np.maximum.reduceat(spheres.nearest_points()[order], start)
+    first = np.argsort(-nearest)
+    low, high = np.minimum.reduceat(cells.low[order], start), np.maximum.reduceat(cells.high[order], start)
+    place, offset = lists_taken(np.append(start, len(order)), first)
+    return _Clusters(order[place], offset, nearest[first], cells._replace(low=low[first], high=high[first]))
+
+
+def _groups(cells: _Cells, clusters: _Clusters, cover: Floats) -> Iterator[list[Ints]]:
+    """The spheres of clusters that show, in groups of blocks that know of each other's cover only when all are done."""
+    number = np.cumsum(np.append(0, _cell_counts(cells, clusters.sphere)))[clusters.start]
+    for batch in blocks(np.diff(number), GROUP * BLOCK_ROWS):
+        shown = _clusters_shown(clusters, np.arange(batch.start, batch.stop), cover)
+        rows = clusters.sphere[lists_taken(clusters.start, shown)[0]]
+        yield [rows[block] for block in _blocks(cells, rows)]
+
+
+def _clusters_shown(clusters: _Clusters, rows: Ints, cover: Floats) -> Ints:
+    """Those of the given clusters of which anything may lie before the cover of some cell."""
+
+    def shown_in(block: slice) -> Ints:
+        number, cell, _ = _rows(clusters.cells, rows[block])
+        shows = np.repeat(clusters.nearest[rows[block]], number) > cover[cell]
+        return rows[block][np.logical_or.reduceat(shows, np.cumsum(number) - number)]
+
+    return np.concatenate(in_threads(shown_in, _blocks(clusters.cells, rows)))
 
 
 def _bounds(spheres: SphereOccluders, cells: _Cells, rows: Ints, cover: Floats) -> tuple[Ints, Ints, Floats]:
@@ -88,7 +127,11 @@ def outlines(spheres: SphereOccluders, projection: Projection) -> tuple[Floats, 
 
 def _blocks(cells: _Cells, rows: Ints) -> Iterator[slice]:
     """Spheres whose bounding boxes touch about as many cells together."""
-    return blocks(np.prod(cells.high[rows] - cells.low[rows] + 1, axis=1), BLOCK_ROWS)
+    return blocks(_cell_counts(cells, rows), BLOCK_ROWS)
+
+
+def _cell_counts(cells: _Cells, rows: Ints) -> Ints:
+    return np.asarray(np.prod(cells.high[rows] - cells.low[rows] + 1, axis=1))
 
 
 def _rows(cells: _Cells, rows: Ints) -> tuple[Ints, Ints, Floats]:

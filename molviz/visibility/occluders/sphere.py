@@ -33,6 +33,9 @@ class SphereOccluders(Protocol):
     def nearness(self) -> Floats:
         """Return the order of the spheres (n,), larger is nearer."""
 
+    def nearest_points(self) -> Floats:
+        """Return how near the nearest points of the spheres (n,) lie, no less than ``surface`` anywhere."""
+
     def horizon_margin(self, horizons: Curves, own: Ints, other: Ints) -> Linear:
         """Return the function on horizon ``own`` (m,) that is positive where sphere ``other`` hides it."""
 
@@ -78,6 +81,10 @@ class ParallelSpheres(NamedTuple):
     def nearness(self) -> Floats:
         """Return z of the centres."""
         return np.asarray(self.spheres.center[:, 2])
+
+    def nearest_points(self) -> Floats:
+        """Return z of the tops."""
+        return np.asarray(self.spheres.center[:, 2] + self.spheres.radius)
 
     def horizon_margin(self, horizons: Curves, own: Ints, other: Ints) -> Linear:
         """Inside one disc: of radius rk if k is nearer (its occlusion), else that of ball k cut at height zi."""
@@ -156,6 +163,10 @@ class CentralSpheres(NamedTuple):
         """Return −L."""
         return -self._tangent()
 
+    def nearest_points(self) -> Floats:
+        """Return r − D."""
+        return np.asarray(self.spheres.radius - length(self.spheres.center))
+
     def horizon_margin(self, horizons: Curves, own: Ints, other: Ints) -> Linear:
         """``p · ck − Li Lk`` where k is nearer (inside its cone), else ``p · ck − (Li² + Lk²)/2`` (inside its ball).
 
@@ -204,8 +215,7 @@ class CentralSpheres(NamedTuple):
     def surface_bounds(self, sphere: Ints, low: Floats, side: float) -> tuple[Floats, Floats]:
         """The farthest of the four corners, as distance grows with the angle from the axis; and r − D."""
         corners = [self.surface(sphere, low + [x, y]) for x in (0.0, side) for y in (0.0, side)]
-        far = length(self.spheres.center)
-        return np.min(corners, axis=0), (self.spheres.radius - far)[sphere]
+        return np.min(corners, axis=0), self.nearest_points()[sphere]
 
     def horizon_angle(self, horizons: Curves, sphere: Ints, points: Floats) -> Floats:
         """The angle at which the line through the eye and the point touches the sphere."""
