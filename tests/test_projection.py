@@ -255,6 +255,7 @@ def test_culling_in_many_groups_keeps_all_that_shows(
     at_once = kept(spheres, distance)
     monkeypatch.setattr(culling, "GROUP", 2)
     monkeypatch.setattr(culling, "BLOCK_ROWS", 64)
+    monkeypatch.setattr(culling, "CLUSTER", 2)
     assert 100 < at_once.sum() < 400
     assert np.array_equal(kept(spheres, distance), at_once)
 
