@@ -15,6 +15,7 @@ from molviz.write.ellipse import (
     on_axes,
     with_straight_pieces,
 )
+from molviz.write.postscript_path import loop_texts
 from molviz.write.svg_path import path_data
 from tests.write_pictures import TURN
 
@@ -189,3 +190,37 @@ def test_lines_after_lines_need_no_letter_and_the_last_of_a_loop_is_its_end() ->
     (data,) = path_data(Paths(arcs, np.array([0, 4]), np.array([0, 1])), 100.0)
     assert data == "M10 90l20-2-2-28-19 2z"
     assert drawn(data)[-1].tolist() == [10, 90]
+
+
+def by_postscript(text: str) -> np.ndarray:
+    """Points along the commands of one loop, by what PostScript's operators mean."""
+    points: list[np.ndarray] = []
+    for line in text.splitlines():
+        *numbers, letter = line.removesuffix(" h").split()
+        x = np.array(numbers, dtype=float)
+        if letter in "ml":
+            points.append(x[None])
+        elif letter == "q":
+            s, (p, q, r, last) = FRACTION[:, None], np.vstack([points[-1][-1], x.reshape(3, 2)])
+            points.append((1 - s) ** 3 * p + 3 * (1 - s) ** 2 * s * q + 3 * (1 - s) * s**2 * r + s**3 * last)
+        else:
+            (first, stop), (major, minor, turn, *center) = (
+                (x[3:], (x[2], x[2], 0.0, x[0], x[1])) if letter in "AN" else (x[:2], x[2:])
+            )
+            t = np.radians(first + FRACTION * (stop - first))
+            on = np.exp(1j * np.radians(turn)) * (major * np.cos(t) + 1j * minor * np.sin(t))
+            points.append(np.column_stack([on.real + center[0], on.imag + center[1]]))
+    return np.vstack(points)
+
+
+@given(st.floats(1.0, 7.0), st.floats(0.0, TURN), st.floats(1.0, 300.0), st.sampled_from([-1, 1]))
+@example(4.77, 1.0, 2.0, 1)  # nearly a straight line, of a stick's ink
+def test_postscript_commands_draw_arcs_however_large(size: float, angle: float, chord: float, way: int) -> None:
+    """A hundredth of a degree of a large circle is many points: its ends would lie far beyond those of the arc."""
+    radius = 10.0**size
+    sweep = way * min(chord / radius, 3.0)
+    u = radius * np.array([np.cos(angle), np.sin(angle)])
+    v = radius * np.array([-np.sin(angle), np.cos(angle)])
+    paths = one((tuple(-u), tuple(u), tuple(v), 0.0, sweep))
+    true, drawn_points = sampled(paths.arcs)[0], by_postscript(loop_texts(paths, True).pieces(np.array([0, 1]))[0])
+    assert apart(drawn_points, true) < 0.06 and apart(true, drawn_points) < 0.06

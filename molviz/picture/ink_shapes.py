@@ -15,6 +15,7 @@ from molviz.vectors import cross, dot
 from molviz.visibility.horizon_runs import HorizonRuns
 
 TOLERANCE = 0.01  # ångström by which a side may be off
+FLAT = 2e-4  # ångström by which an arc may differ from its chord to be drawn as that
 LONGEST_TURN = 2.0  # radians of a horizon along which one arc may run
 GROWTH = 1.5  # by which arcs may be longer, of how far they are from shorter ones
 NECK = 0.4  # of the widest line: where less is left between two lines that meet, ink fills it
@@ -224,7 +225,8 @@ def arcs_through(start: Floats, middle: Floats, end: Floats) -> PlaneArcs:
     """Return the arcs of circles through three points each, straight where these are nearly in a line."""
     a, b = middle - start, end - start
     area, size = 2 * cross(a, b), dot(b, b)
-    flat = np.abs(area) <= 1e-6 * np.maximum(size, dot(a, a))
+    between = dot(a, b) * (size - dot(a, b)) > 0  # the middle point, as seen from the chord
+    flat = np.abs(area) <= np.where(between, 2 * FLAT * np.sqrt(size), 1e-6 * np.maximum(size, dot(a, a)))
     aa, divisor = dot(a, a), np.where(flat, 1.0, area)
     center = np.column_stack([b[:, 1] * aa - a[:, 1] * size, a[:, 0] * size - b[:, 0] * aa]) / divisor[:, None]
     u = -center

@@ -9,6 +9,7 @@ from molviz.curves import Paths, PlaneArcs
 from molviz.vectors import cross, dot
 
 THIN = 0.005  # points: an ellipse with a smaller half-axis cannot be told from a straight piece on any page
+FLAT = 0.01  # points: an arc that leaves its chord by less is the chord, as rounding moves its ends as far
 BEZIER_ERROR = 1e-3  # points: how far a cubic may stray from its arc
 
 
@@ -61,15 +62,28 @@ def in_equal_pieces(paths: Paths, count: Ints) -> Paths:
     return with_pieces(paths, owner, paths.arcs.start[owner] + position * sweep, sweep)
 
 
+def flat(arcs: PlaneArcs) -> Bools:
+    """Return which arcs (k,) run along their chords, never backwards, and hardly leave them."""
+    start, middle, end = arcs.starts(), arcs.at(arcs.middle()), arcs.ends()
+    chord = end - start
+    length = np.hypot(*chord.T)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        beside = np.abs(cross(chord, middle - start)) / length
+    onward = np.ones(len(length), dtype=bool)
+    for t in (arcs.start, arcs.stop()):
+        onward &= dot(arcs.tangent(t) * np.sign(arcs.sweep)[:, None], chord) > 0
+    return np.asarray((beside < FLAT) & onward & (np.abs(arcs.sweep) < np.pi))
+
+
 def with_straight_pieces(paths: Paths) -> tuple[Paths, Bools]:
-    """Return the paths with every thin arc cut where it turns, and which arcs (k,) are therefore straight.
+    """Return the paths with every thin arc cut where it turns, and which arcs (k,) are straight: those and flat ones.
 
     A thin ellipse turns at the two ends of its major axis, half a turn apart.
     """
     arcs, axes = paths.arcs, on_axes(paths.arcs)
     thin, length = axes.minor < THIN, np.abs(arcs.sweep)
     if not thin.any():
-        return paths, thin
+        return paths, flat(arcs)
     first = np.mod(np.sign(arcs.sweep) * (major_vertex(arcs) - arcs.start), np.pi)
     inner = np.where(thin[:, None], np.stack([first, first + np.pi], axis=1), np.inf)
     stop = np.minimum(np.column_stack([np.zeros(len(thin)), inner, length]), length[:, None])
@@ -79,7 +93,7 @@ def with_straight_pieces(paths: Paths) -> tuple[Paths, Bools]:
     cut = with_pieces(
         paths, owner, arcs.start[owner] + direction * stop[owner, column], direction * piece[owner, column]
     )
-    return cut, thin[owner]
+    return cut, thin[owner] | flat(cut.arcs)
 
 
 def closed_loops(paths: Paths) -> Bools:

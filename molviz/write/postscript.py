@@ -36,10 +36,11 @@ SHOWN = 50  # characters shown at once, four bytes each: no line is longer than 
 # interpreter that smooths edges does so with parts of pixels, where all shapes grow for nothing. R tells ghostscript,
 # if it smooths, to paint what is covered.
 PROLOG = r"""%%BeginProlog
-/molviz 16 dict def molviz begin
+/molviz 24 dict def molviz begin
 /M matrix def
 /m{moveto}bind def
 /l{lineto}bind def
+/q{curveto}bind def
 /A{arc}bind def
 /N{arcn}bind def
 /G{M currentmatrix pop translate rotate scale 0 0 1 5 -2 roll}bind def

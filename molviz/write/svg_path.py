@@ -6,11 +6,11 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints, Words
 from molviz.curves import Paths, PlaneArcs
-from molviz.vectors import cross, dot
 from molviz.write.columns import Formatted, beside_each_other, formatted, in_loops, number_words, steps_of, word, words
 from molviz.write.ellipse import (
     AxisArcs,
     closed_loops,
+    flat,
     in_equal_pieces,
     major_vertex,
     on_axes,
@@ -19,7 +19,6 @@ from molviz.write.ellipse import (
 )
 
 STRAY = 0.01  # points: how far rounding may move the middle of an arc before the arc is cut in two
-FLAT = 0.01  # points: an arc that leaves its chord by less is the chord, as rounding moves its ends as far
 CUTS = 10  # halvings: by then every arc that fits on a page lies on its chord
 HALF_TURN = 1e-9  # radians
 
@@ -100,19 +99,6 @@ def drawn_middle(command: Commands) -> Floats:
     return np.asarray((command.start + command.end) / 2 + beside)
 
 
-def flat(arcs: PlaneArcs) -> Bools:
-    """Return which arcs (k,) run along their chords, never backwards, and hardly leave them."""
-    start, middle, end = arcs.starts(), arcs.at(arcs.middle()), arcs.ends()
-    chord = end - start
-    length = np.hypot(*chord.T)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        beside = np.abs(cross(chord, middle - start)) / length
-    onward = np.ones(len(length), dtype=bool)
-    for t in (arcs.start, arcs.stop()):
-        onward &= dot(arcs.tangent(t) * np.sign(arcs.sweep)[:, None], chord) > 0
-    return np.asarray((beside < FLAT) & onward & (np.abs(arcs.sweep) < np.pi))
-
-
 def from_vertices(paths: Paths) -> Paths:
     """Return the paths with every loop that is one whole ellipse starting at a major vertex.
 
@@ -134,7 +120,6 @@ def settled(paths: Paths) -> tuple[Paths, Bools, Commands]:
     as good as straight is written so.
     """
     paths, straight = with_straight_pieces(from_vertices(paths))
-    straight |= flat(paths.arcs)
     command, fresh = commands(paths, straight), np.arange(len(straight))
     for _ in range(CUTS):
         astray = fresh[_strays(command.take(fresh), paths.arcs.take(fresh)) & ~straight[fresh]]
