@@ -20,7 +20,7 @@ STEP = 0.1  # ångström between samples of the border of a pocket
 TOUCH = 0.01  # ångström by which a disc that touches ink may lie in it
 ACROSS = 0.5  # ångström times the detail in which a border is nearly straight
 FEW = 4  # one sample in so many is asked first
-PAIRS = 1 << 20  # of samples at a time
+PAIRS = 1 << 16  # of samples at a time
 
 
 class Pockets(NamedTuple):
