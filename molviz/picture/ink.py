@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.rows import blocks, ordered
+from molviz.geometry.rows import blocks
 from molviz.threads import both, in_threads
 from molviz.visibility.horizon_runs import HorizonRuns
 from molviz.visibility.map import BACKGROUND
@@ -235,9 +235,14 @@ def _last_vertices(width: Floats, runs: HorizonRuns, end: int) -> tuple[Ints, Fl
     distance = np.abs(end * last[run] - place) * (runs.length() / last)[run]
     partner = vertices.on_other_run(inner)
     meets = (partner >= 0) & (at_places(width, runs, vertices.run[partner], vertices.place[partner]) > 0)
-    order = ordered(2 * run + (meets & (distance < CORNER)), -distance)
-    row, away = runs.ends[end].copy(), np.full(len(last), np.inf)
-    row[run[order]], away[run[order]] = inner[order], distance[order]  # the last one written is the nearest
+    first = meets & (distance < CORNER)
+    nearest, away = np.full((2, len(last)), np.inf)
+    np.minimum.at(nearest, run[first], distance[first])
+    np.minimum.at(away, run, distance)
+    away = np.where(nearest < np.inf, nearest, away)
+    found = (distance == away[run]) & (first | (nearest == np.inf)[run])
+    row = runs.ends[end].copy()
+    row[run[found]] = inner[found]
     return row, away
 
 
@@ -254,7 +259,7 @@ def at_places(values: Floats, runs: HorizonRuns, run: Ints, place: Floats) -> Fl
 
 
 def widest_other(width: Floats, runs: HorizonRuns, row: Ints) -> Floats:
-    """Return the width of the widest line at the nodes of the given vertices' rows (q,), their own runs left out."""
+    """Return the width of the widest line at the nodes of the given vertices' rows (…), their own runs left out."""
     vertices = runs.vertices
     here = at_places(width, runs, vertices.run, vertices.place)
     best, second, widest = np.full(len(here), -1), np.zeros(len(here)), np.zeros(len(here))
@@ -274,14 +279,14 @@ def _joining(width: Floats, runs: HorizonRuns, ends: Ints) -> Floats:
     """
     owner, eased = runs.owner(), width.copy()
     from_start, _ = distances_from_ends(runs)
-    for row, edge in zip(ends, _edges(runs), strict=True):
+    for row, edge, widest in zip(ends, _edges(runs), widest_other(width, runs, ends), strict=True):
         there = runs.vertices.place[row] * runs.length() / runs.last()
         distance = np.abs(from_start - there[owner])
         own = at_places(width, runs, runs.vertices.run[row], runs.vertices.place[row])
         partner = runs.vertices.on_other_run(row)
         other = at_places(width, runs, runs.vertices.run[partner], runs.vertices.place[partner])
         silhouette = runs.behind[edge] == BACKGROUND
-        other = np.where((other > THINNER * own) & ~silhouette, other, widest_other(width, runs, row))
+        other = np.where((other > THINNER * own) & ~silhouette, other, widest)
         share = np.minimum(other / np.where(own > 0, own, 1.0), 1.0)
         joins = ~runs.closed & (own > 0) & (partner >= 0)
         close = np.where(joins[owner], 1.0 - smooth_step(distance / FADE), 0.0)
@@ -299,10 +304,8 @@ def _spurs(runs: HorizonRuns, width: Floats, thin: Floats, goes_on: Bools) -> Bo
     last = np.flatnonzero(drawn & ~np.append(drawn[1:] & (owner[1:] == owner[:-1]), False)[: len(drawn)])
     run = owner[first]
     length = runs.length()[run] * (last - first) / (np.diff(runs.start)[run] - 1)
-    joins = [
-        (edge == _edges(runs)[end][run]) & (widest_other(width, runs, runs.ends[end][run]) > 0)
-        for end, edge in enumerate((first, last))
-    ]
+    joins = widest_other(width, runs, runs.ends[:, run]) > 0
+    joins &= np.stack([first, last]) == np.stack(_edges(runs))[:, run]
     meets = joins[0].astype(int) + joins[1] + _met_by_others(runs, width, first, last)
     size = np.maximum.reduceat(width, first) if len(first) else np.empty(0)
     spur = (length < SPUR) & ~runs.closed[run] & ((size < thin[run]) | (meets == 0) | ((length < STUB) & (meets < 2)))

@@ -244,7 +244,7 @@ def arcs_through(start: Floats, middle: Floats, end: Floats) -> PlaneArcs:
 
 def in_colors(paths: Paths, color: Ints) -> tuple[Paths, Ints]:
     """Return shapes of equal rows of ``color`` (k, c) as one shape each, and the distinct rows, ascending."""
-    distinct, number = np.unique(color, axis=0, return_inverse=True)
-    taken = _shapes_taken(paths, np.argsort(number.ravel(), kind="stable"))
-    last = np.cumsum(np.bincount(number.ravel(), minlength=len(distinct)))
-    return taken._replace(shape_start=taken.shape_start[np.append(0, last)]), distinct
+    order = np.lexsort(color.T[::-1])
+    first = np.flatnonzero(np.append(True, (color[order][1:] != color[order][:-1]).any(axis=1))[: len(order)])
+    taken = _shapes_taken(paths, order)
+    return taken._replace(shape_start=taken.shape_start[np.append(first, len(order))]), color[order[first]]
