@@ -6,6 +6,7 @@ arrangements with application to molecular modeling"), drawings are computed for
 reproducible, invisible amount; whoever finds the copy degenerate after all asks for the next one.
 """
 
+import math
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -69,7 +70,7 @@ def nudged(spheres: Spheres, times: Ints) -> Spheres:
 
 def _first_of_each(spheres: Spheres) -> Ints:
     """The rows of the spheres less those that are equal to an earlier one: equal ones have equal sums of columns."""
-    total = spheres.center[:, 0] + np.pi * spheres.center[:, 1] + np.e * spheres.center[:, 2] + spheres.radius
+    total = spheres.center[:, 0] + math.pi * spheres.center[:, 1] + math.e * spheres.center[:, 2] + spheres.radius
     order = np.argsort(total, kind="stable")
     again = np.flatnonzero(total[order][1:] == total[order][:-1])
     rows = distinct(order[np.append(again, again + 1)])
