@@ -184,6 +184,20 @@ def test_a_cluster_hides_the_lines_of_discs_band_by_band(tmp_path: Path, monkeyp
             assert Path(f"{name}_there.ps").read_bytes() == Path(f"{name}.ps").read_bytes()
 
 
+def test_a_cluster_makes_one_large_map_tile_by_tile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.chdir(tmp_path)
+    views = {"parallel": (), "central": ("--perspective", "60")}
+    for name, words in views.items():
+        assert run("draw", str(SAMPLES / "c60.xyz"), *words, "-o", f"{name}.svg").exit_code == 0
+    monkeypatch.setattr("molviz.visibility.tiles.TILE_SPHERES", 7)
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        for name, words in views.items():
+            there = ("-o", f"{name}_there.svg", "--dask", cluster.scheduler_address)
+            assert run("draw", str(SAMPLES / "c60.xyz"), *words, *there).exit_code == 0
+            assert Path(f"{name}_there.svg").read_bytes() == Path(f"{name}.svg").read_bytes()
+
+
 def test_no_cluster_is_a_wrong_option(inputs: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("molviz.cli.pool.SECONDS", 1)
     result = run("info", *inputs, "--dask", "tcp://127.0.0.1:9")

@@ -1,7 +1,8 @@
 """Many inputs to one command: each is done by itself, here or by other processes, and none stops the rest."""
 
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, NamedTuple, TypeVar
 
 import click
@@ -18,6 +19,7 @@ MANY = 3  # inputs: of fewer, all that was said is in view
 LONGEST_REASON = 100  # letters of a reason in the table of failures; it was told in full before
 
 T = TypeVar("T")
+R = TypeVar("R")
 Work = Callable[[str], Any]  # from the name of an input to a value; can be sent to other processes
 
 
@@ -45,6 +47,18 @@ def where_from(options: dict[str, Any]) -> Where:
     if options["dask"] is not None and options["jobs"] != 1:
         raise click.UsageError("--jobs and --dask exclude each other: a cluster has its own processes")
     return Where(options["jobs"], options["dask"])
+
+
+@contextmanager
+def shared_by(address: str | None) -> Iterator[Callable[[Callable[[T], R], Iterable[T]], Iterable[R]]]:
+    """Yield what does the parts of one large input in turn: this process, or the workers of a Dask cluster."""
+    if address is None:
+        yield map
+        return
+    from molviz.cli.pool import shared_by_dask  # here: rarely asked for, and long to import
+
+    with shared_by_dask(address) as each:
+        yield each
 
 
 def for_each(

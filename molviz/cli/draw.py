@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import click
 from click.core import ParameterSource
 
-from molviz.cli.batch import for_each, where_from
+from molviz.cli.batch import for_each, shared_by, where_from
 from molviz.cli.main import TYPED
 from molviz.cli.options import (
     POSITIVE,
@@ -125,13 +125,16 @@ def run_drawings(inputs: tuple[str, ...], options: dict[str, Any]) -> None:
     if together.many and not holds_set(output, suffix):
         raise click.UsageError(f"{suffix} holds one picture; {ONE_EACH}")
 
-    task = DrawTask(
-        wanted, look, eye, together, output, suffix, options["plotter"], options["paper"], options["method"],
-        options["check"], options["quiet"], options["strict"], {source: drawn_by(source) for source in inputs},
-        read_by(options), len(inputs) == 1, bool(options.get("show")),
-    )  # fmt: skip
-    for_each(inputs, task, _tell_json if options.get("as_json") else _tell(options["quiet"]), where_from(options),
-             options["quiet"])
+    where = where_from(options)
+    with shared_by(where.dask if len(inputs) == 1 else None) as each:  # the tiles of one large map
+        task = DrawTask(
+            wanted, replace(look, each=each), eye, together, output, suffix, options["plotter"], options["paper"],
+            options["method"], options["check"], options["quiet"], options["strict"],
+            {source: drawn_by(source) for source in inputs}, read_by(options), len(inputs) == 1,
+            bool(options.get("show")),
+        )  # fmt: skip
+        tell = _tell_json if options.get("as_json") else _tell(options["quiet"])
+        for_each(inputs, task, tell, where, options["quiet"])
 
 
 def format_and_output(options: dict[str, Any]) -> tuple[str, str]:

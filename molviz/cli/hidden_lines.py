@@ -1,15 +1,14 @@
 """``molviz hidden-lines``: exact visible arcs, and nothing but lines unless asked for."""
 
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import click
 
-from molviz.cli.batch import for_each
+from molviz.cli.batch import for_each, shared_by
 from molviz.cli.draw import (
     drawing_options,
     output_options,
@@ -84,27 +83,15 @@ def hidden_lines_command(inputs: tuple[str, ...], **options: Any) -> None:
     if options["style"] == "auto":
         options["style"] = "flat"
     if not inputs:
-        with _workers(options["dask"]) as each:
+        with shared_by(options["dask"]) as each:
             _discs(options["output"], partial(_scene, options, each), options)
     elif options["kind"] == "discs":
-        with _workers(options["dask"]) as each:
+        with shared_by(options["dask"]) as each:
             _molecules_as_discs(inputs, options, each)
     elif options["as_json"]:
         raise click.UsageError("--json tells the statistics of discs; expected --as discs, --random or --text")
     else:
         run_drawings(inputs, {"jobs": 1} | options)
-
-
-@contextmanager
-def _workers(address: str | None) -> Iterator[Each]:
-    """What does the bands of a large scene: this process, or a cluster."""
-    if address is None:
-        yield map
-        return
-    from molviz.cli.pool import shared_by_dask  # here: rarely asked for, and long to import
-
-    with shared_by_dask(address) as each:
-        yield each
 
 
 def _refuse_solid(options: dict[str, Any]) -> None:

@@ -121,13 +121,14 @@ def shared_by_dask(address: str) -> Iterator[Callable[[Callable[[T], R], Iterabl
     client = _client(address)
 
     def each(work: Callable[[T], R], parts: Iterable[T]) -> Iterator[R]:
-        under_way: deque[Any] = deque()
+        under_way: deque[tuple[Any, Any]] = deque()
         for part in parts:
-            under_way.append(client.submit(_by_one_thread, work, client.scatter(part), pure=False))
+            sent = client.scatter(part, hash=False)  # kept until it is used: it cannot be made anew
+            under_way.append((sent, client.submit(_by_one_thread, work, sent, pure=False)))
             if len(under_way) > 2 * len(client.ncores()):
-                yield _result(under_way.popleft())
+                yield _result(under_way.popleft()[1])
         while under_way:
-            yield _result(under_way.popleft())
+            yield _result(under_way.popleft()[1])
 
     try:
         yield each

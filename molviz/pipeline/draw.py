@@ -47,6 +47,7 @@ from molviz.visibility.map_json import map_as_data
 from molviz.visibility.overlay import seen_spheres
 from molviz.visibility.painter import Pieces
 from molviz.visibility.scene import Scene, extent
+from molviz.visibility.tiles import Each
 from molviz.visibility.view import View
 from molviz.write import WRITERS
 
@@ -64,6 +65,7 @@ class DrawRequest:
     labels: tuple[str, ...] = ()  # SELECTION[=TEXT]
     solids: SolidOptions = SolidOptions()
     description: str = ""  # the command that draws it
+    each: Each = map  # what does the tiles of large maps
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -261,7 +263,7 @@ def drawings_of(
     unit = unit_of(loaded) if unit is None else unit
     scaled, views = in_unit(loaded, unit), [view_in_unit(view, unit) for view in views]
     solids = solids_in_unit(solids, unit)
-    scene = Scene(solids.balls, views[0] if len(views) == 1 else None, solids.sticks)
+    scene = Scene(solids.balls, views[0] if len(views) == 1 else None, solids.sticks, request.each)
     options = request.options.settled(entities_of(scaled.molecule), method == "painter").in_unit(unit)
     subject = replace(subject_of(loaded, request, options), molecule=scaled.molecule)
     return [_seen_from(view, scene, solids, loaded, subject, options, method, check) for view in views]

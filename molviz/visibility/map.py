@@ -19,14 +19,15 @@ from molviz.visibility.curves import HORIZON, LINE, Curves
 from molviz.visibility.junctions import CurveArcs, split_at_junctions
 from molviz.visibility.named_arcs import Hidden, joined, visible_arcs
 from molviz.visibility.occluders.stick import StickOccluders
-from molviz.visibility.occlusion import creases_hidden, discs_of, horizons_hidden, overlaps
-from molviz.visibility.own_occlusion import beyond_own_plane, creases_in_view, outside_free_arcs
+from molviz.visibility.occlusion import discs_of, overlaps
+from molviz.visibility.own_occlusion import creases_in_view, outside_free_arcs
 from molviz.visibility.projection import Projection, arcs_on_page
 from molviz.visibility.settle import settle_ends
 from molviz.visibility.solids import BACKGROUND as BACKGROUND
 from molviz.visibility.solids import Solids
 from molviz.visibility.stick_curves import caps_on_horizons, halving, hidden_of_own, stick_curves
 from molviz.visibility.stick_occlusion import hidden_by_sticks, hidden_of_stick_curves
+from molviz.visibility.tiles import Each, Tile, hidden_by_balls, visible_arcs_of, whole_scene
 from molviz.visibility.view import View
 
 
@@ -100,58 +101,53 @@ def map_in_view(
     view: View,
     projection: Projection,
     label: Ints | None = None,
+    each: Each = map,
 ) -> VisibilityMap:
     """Return the map of what is seen of the ``wanted`` spheres (ascending) and their sticks, as if there were no more.
 
     The spheres of ``solids`` are the wanted ones of the boundary, in eye coordinates; the map numbers them by their
     place in ``wanted``. Where a ``label`` (n,) from 0 of all the boundary's spheres is given (and no sticks), faces
-    carry labels, and only what separates different ones is computed. Raises ``Degenerate`` where the solids are not in
-    general position.
+    carry labels, and only what separates different ones is computed. ``each`` does the tiles of a large map of balls,
+    as ``map`` does. Raises ``Degenerate`` where the solids are not in general position.
     """
-    spheres = solids.spheres
     number = np.arange(solids.balls + len(solids.sticks.ends.sphere))
     label = solids.seen_halves(number) if label is None else label[wanted]
     creases, hidden = _creases_between(boundary, wanted, label, view, solids.sticks)
-    horizons = spheres.horizons()
-    discs = discs_of(horizons, projection)
-    near = overlaps(discs)
-    nearness = spheres.nearness()
-    nearer = np.where(nearness[creases.first] > nearness[creases.second], creases.first, creases.second)
-    parts = [
-        hidden,
-        beyond_own_plane(spheres, creases, np.arange(len(creases.first)), nearer),
-        horizons_hidden(spheres, horizons, near, len(creases.first)),
-        *creases_hidden(spheres, creases, projection, near, discs),
-    ]
-    curves = creases.followed_by(horizons)
+    horizons = solids.spheres.horizons()
+    near = overlaps(discs_of(horizons, projection))
+    scene = whole_scene(solids.spheres, near, creases, hidden, projection)
     bounds = solids.bounds(projection, view)
     if len(solids.sticks.length):
         in_front, near = bounds.neighbours()
-        curves, more = _with_sticks(solids, creases, horizons, in_front, bounds, projection)
-        parts += more
-    named = visible_arcs(curves, np.arange(len(curves.first)), joined(parts), solids.balls)
-    settle_ends(named, curves, solids.sticks, solids.balls)
+        curves, parts = _with_sticks(solids, scene, horizons, in_front, bounds)
+        named = visible_arcs(curves, np.arange(len(curves.first)), joined(parts), solids.balls)
+        settle_ends(named, curves, solids.sticks, solids.balls)
+    else:
+        curves = creases.followed_by(horizons)
+        named = visible_arcs_of(scene, each)
     curve_arcs, entered = split_at_junctions(named, curves, solids, view.distance is not None)
     sides = _sides(solids, curves, curve_arcs, entered, near, projection, bounds)
     return _assembled(solids, curves, curve_arcs, np.append(label, BACKGROUND)[sides], projection)
 
 
 def _with_sticks(
-    solids: Solids, creases: Curves, horizons: Curves, near: Neighbours, bounds: Bounds, projection: Projection
+    solids: Solids, scene: Tile, horizons: Curves, near: Neighbours, bounds: Bounds
 ) -> tuple[Curves, list[Hidden]]:
-    """All curves, those of sticks after the others, and what sticks hide and what is hidden of them.
+    """All curves, those of sticks after the others, and what is hidden of them; ``scene`` is that of the balls.
 
     ``near`` are the spheres and sticks that may be in front of some of each, ``bounds`` what they keep within.
     """
     spheres, sticks, count = solids.spheres, solids.sticks, solids.balls
     of = stick_curves(sticks, halving(sticks, count), count)
-    plain = creases.followed_by(horizons)
+    plain = scene.creases.followed_by(horizons)
     start = len(plain.first)
     curves = plain.followed_by(of.curves)
     own = caps_on_horizons(sticks, spheres, horizons, of, count)
-    by_spheres, by_sticks = hidden_of_stick_curves(solids, of, near, bounds, projection, start)
+    by_spheres, by_sticks = hidden_of_stick_curves(solids, of, near, bounds, scene.projection, start)
     return curves, [
-        own._replace(curve=own.curve + len(creases.first)),
+        scene.inside,
+        *hidden_by_balls(scene, horizons),
+        own._replace(curve=own.curve + len(scene.creases.first)),
         *hidden_of_own(sticks, spheres, of, start),
         *by_spheres,
         *hidden_by_sticks(sticks, plain, near, count),

@@ -62,6 +62,11 @@ class NamedArcs(NamedTuple):
     origin: Ints  # (k, 4)
     target: Ints  # (k, 4)
 
+    def take(self, rows: Ints) -> "NamedArcs":
+        """Return the given arcs, in that order; names keep the numbers of arcs that they had."""
+        ends = (name.take(rows, axis=0) for name in (self.origin, self.target))
+        return NamedArcs(self.curve[rows], self.start[rows], self.sweep[rows], self.instance[rows], *ends)
+
 
 def joined(parts: list[Hidden]) -> Hidden:
     """Return the rows of several tables as one."""

@@ -41,37 +41,41 @@ def overlaps(discs: Discs) -> Neighbours:
     return neighbours(Spheres(flat, discs.radius))
 
 
-def horizons_hidden(spheres: SphereOccluders, horizons: Curves, near: Neighbours, first_curve: int) -> Hidden:
-    """Return what all spheres hide of the horizons, which are curves ``first_curve`` onwards.
+def horizons_hidden(
+    spheres: SphereOccluders, horizons: Curves, which: Ints, near: Neighbours, first_curve: int
+) -> Hidden:
+    """Return what all spheres hide of some horizons ``which`` (o,), which are curves ``first_curve`` onwards.
 
-    A horizon leaves the interval under a nearer sphere (a T-junction) or inside a farther ball (an entry).
+    ``near`` are the spheres that overlap each of them. A horizon leaves the interval under a nearer sphere (a
+    T-junction) or inside a farther ball (an entry).
     """
-    own = np.repeat(np.arange(len(near.start) - 1), np.diff(near.start))
-    other = near.item
+    curve = np.repeat(np.arange(len(which)), np.diff(near.start))
+    own, other = which[curve], near.item
     margin = spheres.horizon_margin(horizons, own, other)
     middle, half = above(margin.a, margin.b, -margin.c)
     nearness = spheres.nearness()
     rows = np.flatnonzero(half > 0)
     own, other, middle, half = own[rows], other[rows], middle[rows], half[rows]
     reason = np.where(nearness[other] > nearness[own], FRONT, BALL)
-    return Hidden(first_curve + own, middle - half, 2 * half, reason, other, other)
+    return Hidden(first_curve + curve[rows], middle - half, 2 * half, reason, other, other)
 
 
 def creases_hidden(
-    spheres: SphereOccluders, creases: Curves, projection: Projection, near: Neighbours, discs: Discs
+    spheres: SphereOccluders, creases: Curves, projection: Projection, near: Neighbours, lists: Ints, discs: Discs
 ) -> list[Hidden]:
     """Return what nearer spheres hide of the creases, which are curves 0 onwards, in blocks.
 
+    ``near.item[near.start[lists]]`` onwards overlap the first spheres of the creases, ``discs`` are around spheres.
     Only a sphere nearer than both spheres of a crease can hide what these leave of it: in a parallel view what they
     leave lies above both centres, and an occlusion lies below its sphere's.
     """
-    own = creases.first
     image = discs_of(creases, projection)
     nearness = spheres.nearness()
-    nearest = np.maximum(nearness[own], nearness[creases.second])
+    nearest = np.maximum(nearness[creases.first], nearness[creases.second])
+    begin, end = near.start[lists], near.start[lists + 1]
 
     def hidden_in(block: slice) -> list[Hidden]:
-        row, entry = expand(near.start[own[block]], near.start[own[block] + 1])
+        row, entry = expand(begin[block], end[block])
         curve, sphere = row + block.start, near.item[entry]
         rows = np.flatnonzero(nearness[sphere] > nearest[curve])
         curve, sphere = curve[rows], sphere[rows]
@@ -83,7 +87,7 @@ def creases_hidden(
             for part in np.array_split(rows, len(rows) // BLOCK_ROWS + 1)
         ]
 
-    found = in_threads(hidden_in, blocks(near.start[own + 1] - near.start[own], 8 * BLOCK_ROWS))
+    found = in_threads(hidden_in, blocks(end - begin, 8 * BLOCK_ROWS))
     return [part for block in found for part in block]
 
 

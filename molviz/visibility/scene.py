@@ -1,6 +1,7 @@
 """One scene, any number of views: spheres in general position, their union boundary, and the map or the pieces."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -22,6 +23,7 @@ from molviz.visibility.eye import (
 from molviz.visibility.map import VisibilityMap, map_in_view
 from molviz.visibility.painter import Pieces, painter_pieces
 from molviz.visibility.solids import Solids
+from molviz.visibility.tiles import Each
 from molviz.visibility.view import View
 
 T = TypeVar("T")
@@ -45,10 +47,13 @@ class Scene:
     one ball not outside it, and no others at all.
 
     Where only one view is wanted, naming it spares the work for spheres that it hides; no other may be asked for then.
+    ``each`` does the tiles of large maps of balls in turn, as ``map`` does, or has others do them.
     """
 
-    def __init__(self, spheres: Spheres, only: View | None = None, sticks: Sticks = NO_STICKS) -> None:
-        self.spheres, self.only, self.sticks = spheres, only, sticks
+    def __init__(
+        self, spheres: Spheres, only: View | None = None, sticks: Sticks = NO_STICKS, each: Each = map
+    ) -> None:
+        self.spheres, self.only, self.sticks, self.each = spheres, only, sticks, each
         self._prepared: dict[int, Prepared] = {}
 
     def __repr__(self) -> str:
@@ -59,7 +64,7 @@ class Scene:
 
         Raises InputError if an eye lies inside the molecule or too far away.
         """
-        return self._in_general_position(view, _map)
+        return self._in_general_position(view, partial(_map, each=self.each))
 
     def pieces(self, view: View) -> tuple[Pieces, Ints]:
         """Return the painter's pieces, in an order that is a rule for sticks, and the row of each sphere; raises as
@@ -107,7 +112,9 @@ def _possibly_visible(spheres: Spheres, view: View) -> Ints:
     return np.flatnonzero(possibly_visible(occluders, projection_of(view)))
 
 
-def _map(prepared: Prepared, view: View, label: Ints | None = None) -> tuple[VisibilityMap, Ints]:
+def _map(
+    prepared: Prepared, view: View, label: Ints | None = None, each: Each = map
+) -> tuple[VisibilityMap, Ints]:
     spheres, sticks = prepared.boundary.spheres, prepared.sticks
     wanted = _wanted(spheres, sticks, view)
     seen = eye_coordinates(spheres.take(wanted), view)
@@ -115,7 +122,7 @@ def _map(prepared: Prepared, view: View, label: Ints | None = None) -> tuple[Vis
         occluders_of(seen, view), sticks_in_view(seen, sticks.among(wanted, len(spheres.radius)), view)
     )
     labels = None if label is None else label[prepared.row]
-    view_map = map_in_view(prepared.boundary, solids, wanted, view, projection_of(view), labels)
+    view_map = map_in_view(prepared.boundary, solids, wanted, view, projection_of(view), labels, each)
     return view_map, prepared.row[wanted]
 
 
