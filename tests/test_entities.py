@@ -12,7 +12,7 @@ from molviz.arrays import Ints
 from molviz.model.entities import ION, LIGAND, POLYMER, WATER, chain_entities, entities_of, is_metal
 from molviz.model.molecule import Molecule
 from molviz.model.residues import AMINO_ACIDS
-from molviz.picture.coloring import chain_colors, entity_colors
+from molviz.picture.coloring import chain_colors, entity_colors, order_of_appearance
 from molviz.picture.oklab import lightness
 from molviz.picture.palette import load_palette
 from molviz.picture.tints import tinted
@@ -218,7 +218,8 @@ def test_metals_water_and_many_entities() -> None:
 def test_chain_colours_are_shared_only_when_all_are_used_up() -> None:
     tide = load_palette("tide")
     names = np.repeat([f"C{number}" for number in range(25)], 2)
-    colors = chain_colors(names, tide)
+    colors = chain_colors(order_of_appearance(names), tide)
     assert len(np.unique(colors[:48], axis=0)) == 24
     assert np.array_equal(colors[48:], colors[:2])
-    assert chain_colors(names[:0], tide).shape == (0, 3)
+    assert chain_colors(order_of_appearance(names[:0]), tide).shape == (0, 3)
+    assert order_of_appearance(np.array(["B", "B", "A", "B"])).tolist() == [0, 0, 1, 0]

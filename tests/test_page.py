@@ -251,7 +251,7 @@ def test_numbers_that_are_known_are_coloured_among_those_that_are_known() -> Non
 
 def test_the_colour_of_an_index_is_that_number_in_base_256() -> None:
     count = 66_000
-    colors = by_index(count)
+    colors = by_index(np.arange(count))
     assert np.array_equal(colors @ [256**2, 256, 1], np.arange(1, count + 1)) and colors.max() == 255
 
 

@@ -34,6 +34,10 @@ class Entities(NamedTuple):
     chain: Strings  # (p,) name
     chain_entity: Ints  # (p,)
 
+    def take(self, rows: Ints) -> "Entities":
+        """Return the same of the given atoms; chains are all there are."""
+        return self._replace(kind=self.kind[rows], polymer=self.polymer[rows], entity=self.entity[rows])
+
 
 class _Residues(NamedTuple):
     """Runs of atoms with the same chain, residue and residue name, in the order of the file."""

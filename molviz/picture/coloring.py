@@ -33,6 +33,15 @@ class ColorSubject(NamedTuple):
     entities: Entities
     values: Floats  # (n,) NaN unless the scheme is continuous
     bounds: tuple[float, float]  # the values at the ends of the ramp
+    number: Ints  # (n,) of each atom in the drawing, from 0
+    chain: Ints  # (n,) of each atom's chain, in order of appearance
+
+    def take(self, rows: Ints) -> "ColorSubject":
+        """Return the given atoms, whose numbers stay as they are."""
+        return ColorSubject(
+            self.molecule.take(rows), self.entities.take(rows), self.values[rows], self.bounds, self.number[rows],
+            self.chain[rows],
+        )  # fmt: skip
 
 
 class AtomColors(NamedTuple):
@@ -59,11 +68,11 @@ def atom_colors(scheme: str, subject: ColorSubject, style: Style, palette: Palet
     if scheme == "entity":
         return entity_colors(molecule, subject.entities, palette, tint)
     if scheme == "index":
-        fill = by_index(len(molecule))
+        fill = by_index(subject.number)
     elif scheme in CONTINUOUS:
         fill = np.array(on_ramp(subject.values, style.colors.ramp, style.colors.unknown, subject.bounds))
     elif scheme == "chain":
-        fill = chain_colors(molecule.chain, palette)
+        fill = chain_colors(subject.chain, palette)
     else:
         table, names = (
             (style.colors.element, molecule.element) if scheme == "element" else
@@ -80,10 +89,10 @@ def with_own_darks(fill: Ints, ink_of_lines: Color) -> AtomColors:
     return AtomColors(fill, ink, shade)
 
 
-def by_index(count: int) -> Ints:
-    """Return for atom k the colour whose RGB value is k + 1, exactly: a picking mask."""
-    number = np.arange(1, count + 1)
-    return np.stack([number >> 16 & 255, number >> 8 & 255, number & 255], axis=1)
+def by_index(number: Ints) -> Ints:
+    """Return for each atom (n,) the colour whose RGB value is its number plus 1, exactly: a picking mask."""
+    value = number + 1
+    return np.stack([value >> 16 & 255, value >> 8 & 255, value & 255], axis=1)
 
 
 def entity_colors(molecule: Molecule, entities: Entities, palette: Palette, tint: Ints) -> AtomColors:
@@ -106,19 +115,21 @@ def entity_colors(molecule: Molecule, entities: Entities, palette: Palette, tint
     return AtomColors(fill, ink, shade)
 
 
-def chain_colors(chain: Strings, palette: Palette) -> Ints:
-    """Return the palette's chain colours (n, 3) in turn, in the order in which chains appear.
+def chain_colors(number: Ints, palette: Palette) -> Ints:
+    """Return the palette's chain colours (n, 3) in turn, for atoms by the numbers (n,) of their chains.
 
     They repeat where there are more chains than colours: ``palette.repeats`` tells.
     """
-    number = order_of_appearance(chain)
-    places = np.array([number[name] for name in chain.tolist()], dtype=np.int64)
-    return np.array(palette.chain)[places % len(palette.chain)]
+    return np.array(palette.chain)[number % len(palette.chain)]
 
 
-def order_of_appearance(names: Strings) -> dict[str, int]:
-    """Return a running number for each distinct name."""
-    return {name: number for number, name in enumerate(dict.fromkeys(names.tolist()))}
+def order_of_appearance(names: Strings) -> Ints:
+    """Return for each name (n,) a running number of the distinct ones; equal names in a row cost little."""
+    begins = np.append(True, names[1:] != names[:-1])[: len(names)]
+    of_run = names[begins].tolist()
+    number = {name: place for place, name in enumerate(dict.fromkeys(of_run))}
+    of_each: Ints = np.array([number[name] for name in of_run], dtype=np.int64)
+    return of_each.take(np.cumsum(begins) - 1)
 
 
 def on_ramp(

@@ -145,8 +145,8 @@ class MapComposer:
     @cached_property
     def looks(self) -> Looks:
         """The colours of each sphere."""
-        colors = self.subject.colors(self.options, self.shown_tints).take(self.subject.atom)
-        group = groups(self.subject.molecule, self.subject.entities)[self.subject.atom]
+        colors = self.subject.seen_colors(self.options, self.shown_tints)
+        group = groups(self.subject.seen_molecule, self.subject.entities.take(self.subject.atom))
         if self.options.is_mask:
             return Looks(*colors, group, np.zeros(len(group)))
         surfaces, centers = self.subject.alike.depth or depths(self.map, self.view, self.seen)
@@ -197,12 +197,12 @@ class MapComposer:
         seen = self.map.merged() if self.options.is_mask else self.solids.of_spheres()
         face = seen.loops.face
         keep = np.flatnonzero((face != BACKGROUND) & ~slivers(seen))
-        rank = _file_order(self.subject.molecule)[self.subject.atom]
+        rank = _file_order(self.subject.seen_molecule, self.subject.chain_number[self.subject.atom])
         order = keep[np.argsort(rank[face[keep]], kind="stable")]
         shape = np.cumsum(np.append(False, np.diff(face[order]) != 0)[: len(order)])
         paths = shapes_of(self.arcs, self.map.curve_arcs.curve, closed_chains(seen.loops, order), shape)
         sphere = face[order][np.searchsorted(shape, np.arange(len(paths.shape_start) - 1))]
-        named = marks(self.subject.molecule.take(self.subject.atom[sphere]), True)
+        named = marks(self.subject.seen_molecule.take(sphere), True)
         if self.options.is_mask:
             return FillLayer("atoms", paths, colors_of(self.looks.fill[sphere]), named)
         if self.fill != "ball":
@@ -221,8 +221,8 @@ class MapComposer:
         lit = StickLight(self.solids, projection_of(self.view), self.placement, light)
         if not self.by_atom:
             return [*lit.bands(fill)]
-        ends = self.subject.atom[self.solids.sticks.ends.sphere.reshape(-1, 2)[lit.stick]]
-        named = bond_marks(self.subject.molecule, ends)
+        ends = self.solids.sticks.ends.sphere.reshape(-1, 2)[lit.stick]
+        named = bond_marks(self.subject.seen_molecule, ends)
         if self.fill != "ball":
             return [FillLayer("bonds", lit.paths, colors_of(fill[lit.half]), named, SPREAD), *lit.bands(fill)]
         paints, origin = lit.gradients(fill, self.style)
@@ -411,15 +411,14 @@ def placed_and_colored(
     return composer.placement, subject.colors(options, tint).fill
 
 
-def _file_order(molecule: Molecule) -> Ints:
-    """The rank of each atom when chains and, in them, residues stay together in order of appearance."""
-    chain = order_of_appearance(molecule.chain)
-    place = np.char.add(np.char.add(molecule.residue_name, " "), molecule.residue)
-    residue = order_of_appearance(place)
-    chain_number = np.array([chain[name] for name in molecule.chain.tolist()])
-    residue_number = np.array([residue[name] for name in place.tolist()])
+def _file_order(molecule: Molecule, chain: Ints) -> Ints:
+    """The rank of each atom when chains, by their numbers (n,), and in them residues stay together.
+
+    Residues are in order of appearance.
+    """
+    residue = order_of_appearance(np.char.add(np.char.add(molecule.residue_name, " "), molecule.residue))
     rank = np.empty(len(molecule), dtype=np.int64)
-    rank[np.lexsort((residue_number, chain_number))] = np.arange(len(molecule))
+    rank[np.lexsort((residue, chain))] = np.arange(len(molecule))
     return rank
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.model.entities import POLYMER, Entities, entities_of
 from molviz.model.molecule import Molecule
-from molviz.picture.coloring import AtomColors, ColorSubject, atom_colors
+from molviz.picture.coloring import AtomColors, ColorSubject, atom_colors, order_of_appearance
 from molviz.picture.page import NO_MARGINS, Margins, Page
 from molviz.picture.palette import Palette
 from molviz.picture.picture import Color
@@ -128,10 +128,15 @@ class Subject:
         """What each atom belongs to."""
         return entities_of(self.molecule)
 
-    @property
+    @cached_property
     def seen_molecule(self) -> Molecule:
         """The atoms of the spheres, in their order."""
         return self.molecule.take(self.atom)
+
+    @cached_property
+    def chain_number(self) -> Ints:
+        """The number of each atom's chain (n,), in order of appearance."""
+        return order_of_appearance(self.molecule.chain)
 
     @property
     def bounds(self) -> tuple[float, float]:
@@ -141,10 +146,21 @@ class Subject:
         return self.alike.values or own
 
     def colors(self, options: DrawOptions, tint: Ints) -> AtomColors:
-        """Return the colours of all atoms; ``options`` are settled."""
-        about = ColorSubject(self.molecule, self.entities, self.values, self.bounds)
+        """Return the colours of all atoms (n,); ``options`` are settled."""
+        return self._colors(self._about, options, tint, np.arange(len(self.molecule)))
+
+    def seen_colors(self, options: DrawOptions, tint: Ints) -> AtomColors:
+        """Return the colours of the spheres (s,) alone, which may be few; ``options`` are settled."""
+        return self._colors(self._about.take(self.atom), options, tint, self.atom)
+
+    @property
+    def _about(self) -> ColorSubject:
+        number = np.arange(len(self.molecule))
+        return ColorSubject(self.molecule, self.entities, self.values, self.bounds, number, self.chain_number)
+
+    def _colors(self, about: ColorSubject, options: DrawOptions, tint: Ints, rows: Ints) -> AtomColors:
         style = options.chosen_style()
         colors = atom_colors(str(options.color_by), about, style, options.palette, tint)
         for one in self.painted:
-            colors = colors.painted(one.atoms, one.color, style.lines.color)
+            colors = colors.painted(one.atoms[rows], one.color, style.lines.color)
         return colors
