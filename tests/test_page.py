@@ -275,6 +275,11 @@ def test_shapes_are_grouped_by_chain_and_residue_in_order_of_appearance() -> Non
     assert [mark.groups for mark in marks] == [cysteine, cysteine, alanine, glycine, glycine]
 
 
+def test_residues_of_a_chain_are_in_the_order_of_the_file_whatever_other_chains_have() -> None:
+    atoms = [("A", "GLY", "9", "C", 0.0, 0.0), ("B", "SER", "1", "C", 9.0, 0.0), ("B", "GLY", "9", "C", 18.0, 0.0)]
+    assert [mark.id for mark in page(residues(*atoms)).layers[0].mark] == ["A_GLY_9_C", "B_SER_1_C", "B_GLY_9_C"]
+
+
 def test_painted_atoms_carry_their_residues_as_classes() -> None:
     (stack,) = page(MIXED, "painter").layers
     marks = {mark.id: mark for mark in stack.fills.mark}

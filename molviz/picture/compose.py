@@ -414,9 +414,10 @@ def placed_and_colored(
 def _file_order(molecule: Molecule, chain: Ints) -> Ints:
     """The rank of each atom when chains, by their numbers (n,), and in them residues stay together.
 
-    Residues are in order of appearance.
+    The residues of a chain are in order of appearance.
     """
-    residue = order_of_appearance(np.char.add(np.char.add(molecule.residue_name, " "), molecule.residue))
+    place = np.char.add(np.char.add(molecule.residue_name, " "), molecule.residue)
+    residue = order_of_appearance(np.char.add(np.char.add(molecule.chain, "/"), place))
     rank = np.empty(len(molecule), dtype=np.int64)
     rank[np.lexsort((residue, chain))] = np.arange(len(molecule))
     return rank
