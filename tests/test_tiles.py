@@ -14,12 +14,12 @@ from molviz.visibility import tiles
 from molviz.visibility.map import VisibilityMap
 from molviz.visibility.scene import Scene, labelled_map
 from molviz.visibility.view import View, principal_axes
+from tests.oracle import random_spheres
 
 
 def crowd(seed: int, count: int) -> Spheres:
     """Balls of which each meets some others and hides some."""
-    generator = np.random.default_rng(seed)
-    return Spheres(generator.uniform(0.0, 2.0 * count ** (1 / 3), (count, 3)), generator.uniform(0.5, 1.8, count))
+    return random_spheres(seed, count, 2.5 * count ** (1 / 3))
 
 
 def tables_of(view_map: VisibilityMap) -> list[Any]:

@@ -51,10 +51,6 @@ class AtomColors(NamedTuple):
     ink: Ints  # (n, 3)
     shade: Ints  # (n, 3)
 
-    def take(self, rows: Ints) -> "AtomColors":
-        """Return the colours of the given atoms."""
-        return AtomColors(self.fill[rows], self.ink[rows], self.shade[rows])
-
     def painted(self, atoms: Bools, color: Color, ink: Color) -> "AtomColors":
         """Return the same with the given atoms (n,) in one colour, and darks of it and the ink."""
         own = with_own_darks(np.array([color]), ink)

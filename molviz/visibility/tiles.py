@@ -7,11 +7,11 @@ there were no others, so that no seam has to be sewn: arcs and names are those o
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from typing import Literal, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from molviz.arrays import Ints, distinct
+from molviz.arrays import Bools, Ints, distinct
 from molviz.geometry.grid import Neighbours
 from molviz.geometry.rows import expand, lists_taken
 from molviz.visibility.curves import Curves
@@ -22,7 +22,6 @@ from molviz.visibility.occlusion import creases_hidden, discs_of, horizons_hidde
 from molviz.visibility.own_occlusion import beyond_own_plane
 from molviz.visibility.projection import Projection
 
-SIDES: tuple[Literal["left", "right"], ...] = ("left", "right")
 TILE_SPHERES = 1 << 13  # that belong to a tile: some 5,000 bytes each while it is at work
 
 Each: TypeAlias = Callable[[Callable[["Tile"], NamedArcs], Iterable["Tile"]], Iterable[NamedArcs]]
@@ -77,9 +76,8 @@ def arcs_of_tile(tile: Tile) -> NamedArcs:
     arcs = visible_arcs(curves, np.arange(count + len(tile.own)), hidden)
     sphere = np.append(tile.sphere, -1)  # row −1 stays −1
     for name in (arcs.origin, arcs.target):
-        kind = name[:, 0] >> 1
-        arc = (kind == TEE) | (kind == WHOLE)  # whose first number is that of the arc
-        name[:, 1] = np.where(arc, name[:, 1], sphere[np.where(arc, -1, name[:, 1])])
+        rows = np.flatnonzero(~_numbers_arc(name))
+        name[rows, 1] = sphere[name[rows, 1]]
         name[:, 2:] = sphere[name[:, 2:]]
     curve = tile.curve[arcs.curve]
     return arcs._replace(curve=curve, instance=curve)
@@ -139,13 +137,19 @@ def _tile(scene: Tile, own: Ints) -> Tile:
 
 def _rows_of(owner: Ints, items: Ints) -> tuple[Ints, Ints]:
     """The rows of ascending owners (m,) that the given items own, and which item owns each."""
-    number, row = expand(*(np.searchsorted(owner, items, side=side) for side in SIDES))
+    begin, end = (np.searchsorted(owner, items, side=side) for side in ("left", "right"))
+    number, row = expand(begin, end)
     return row, number
 
 
 def _numbered(arcs: NamedArcs) -> NamedArcs:
     """The arcs with their own rows in the names that number them."""
     for name in (arcs.origin, arcs.target):
-        rows = np.flatnonzero((name[:, 0] >> 1 == TEE) | (name[:, 0] >> 1 == WHOLE))
+        rows = np.flatnonzero(_numbers_arc(name))
         name[rows, 1] = rows
     return arcs
+
+
+def _numbers_arc(name: Ints) -> Bools:
+    """Whether the first number of each name (k, 4) is that of an arc, and not of a sphere."""
+    return np.isin(name[:, 0] >> 1, (TEE, WHOLE))
