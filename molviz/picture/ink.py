@@ -206,18 +206,21 @@ def _entering(width: Floats, runs: HorizonRuns, least: Floats) -> tuple[Floats, 
     A line that enters a ball just after another has passed under it makes a corner with that one: it ends there, as
     wide as it is, unless it goes on beyond as a line and then as a crease.
     """
-    owner, ends = runs.owner(), runs.ends.copy()
+    owner, ends, width = runs.owner(), runs.ends.copy(), width.copy()
+    wide = np.flatnonzero(least > 0)
     for end, distance in enumerate(distances_from_ends(runs)):
         row, away = _last_vertices(width, runs, end)
         met = np.where(away < np.inf, widest_other(width, runs, row) > 0, True)
         enters = ~runs.closed & (runs.vertices.on_other_run(runs.ends[end]) < 0)
-        goes_on = np.maximum.reduceat(np.where(distance < away[owner], least, 0.0), runs.start[:-1]) > 0
+        goes_on = np.zeros(len(away), dtype=bool)
+        goes_on[owner[wide[distance[wide] < away[owner[wide]]]]] = True
         corner = enters & met & (away < CORNER) & ~goes_on
         ends[end] = np.where(corner, row, ends[end])
-        reach = np.where(met, np.minimum(away, FADE), FADE)[owner]
-        fades = (enters & ~corner)[owner] & (distance < reach) & (width > least)
-        share = np.divide(distance, reach, out=np.ones_like(reach), where=reach > 0)
-        width = np.where(fades, least + (width - least) * share, width)
+        reach = np.where(met, np.minimum(away, FADE), FADE)
+        fades = np.flatnonzero((enters & ~corner)[owner])
+        fades = fades[(distance[fades] < reach[owner[fades]]) & (width[fades] > least[fades])]
+        share = distance[fades] / reach[owner[fades]]
+        width[fades] = least[fades] + (width[fades] - least[fades]) * share
     return width, ends
 
 

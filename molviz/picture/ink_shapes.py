@@ -7,10 +7,11 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import Paths, PlaneArcs, straight_pieces
 from molviz.geometry.rows import expand, lists_taken, offsets
-from molviz.picture.ink import THINNEST, Widths, at_places
+from molviz.picture.ink import BLOCK_SAMPLES, THINNEST, Widths, at_places
 from molviz.picture.ink_ends import INSIDE, OUTSIDE, Disc, Ends, Mitre, discs, ends_of, mitres
 from molviz.picture.ink_strokes import Strokes, frames_at, strokes_of
 from molviz.picture.regions import stacked
+from molviz.threads import both, in_threads
 from molviz.vectors import cross, dot
 from molviz.visibility.horizon_runs import HorizonRuns
 
@@ -18,6 +19,7 @@ TOLERANCE = 0.01  # ångström by which a side may be off
 FLAT = 2e-4  # ångström by which an arc may differ from its chord to be drawn as that
 LONGEST_TURN = 2.0  # radians of a horizon along which one arc may run
 GROWTH = 1.5  # by which arcs may be longer, of how far they are from shorter ones
+BLOCK_ARCS = 1 << 13  # at a time, some forty columns each
 NECK = 0.4  # of the widest line: where less is left between two lines that meet, ink fills it
 NOTHING = 1e-9  # square ångström: a stroke of less ink is none, and ångström: shorter pieces are none
 ALL = 0.995  # of a line that is dark: it hides its own ink
@@ -43,8 +45,8 @@ def inked(runs: HorizonRuns, widths: Widths, neck: float) -> tuple[Strokes, Path
     one, one_paths = outlined(runs, strokes_of(runs, own, widths.ends), widths.width, widths.width, neck)
     other, other_paths = outlined(runs, strokes_of(runs, dark > 0, widths.ends), dark, widths.width, neck)
     is_dark = np.repeat([False, True], [len(one.run), len(other.run)])
-    both = Strokes(*(np.concatenate(columns, axis=-1) for columns in zip(one, other, strict=True)))
-    return both, stacked([one_paths, other_paths]), is_dark
+    strokes = Strokes(*(np.concatenate(columns, axis=-1) for columns in zip(one, other, strict=True)))
+    return strokes, stacked([one_paths, other_paths]), is_dark
 
 
 def outlined(
@@ -55,16 +57,20 @@ def outlined(
     ``width`` (s,) is that of the strokes, ``all_ink`` that of all inks together; wedges between lines are filled as far
     as they are narrower than ``neck`` ångström.
     """
-    ends, taken, pieces, turns = ends_of(runs, strokes, width, all_ink), _arcs_taken(runs, width), [], []
-    for part, share in ((OUTER, OUTSIDE), (INNER, INSIDE)):
+    ends, taken = ends_of(runs, strokes, width, all_ink), _arcs_taken(runs, width)
+
+    def side(part: int, share: float) -> tuple[_Pieces, _Turn]:
         disc, mitre = discs(runs, ends, width, all_ink, share, neck), mitres(runs, ends, share)
         most = np.where(disc.fits | mitre.cut | (share < 0), np.inf, _most_outside(ends))
         stops = np.where(disc.fits, disc.place, mitre.place)
         stroke, number, points = _side(runs, strokes, taken, share * width, stops, most)
-        pieces.append(_along_side(stroke, number, points, part))
-        first = number == 0
-        turns.append(_Turn(np.concatenate([points[first], points[np.roll(first, -1)]]), disc, mitre))
-    pieces += _at_ends(strokes, ends, *turns)
+        corner = np.concatenate([points[number == 0], points[np.roll(number == 0, -1)]])
+        return _along_side(stroke, number, points, part), _Turn(corner, disc, mitre)
+
+    (outer, outer_turn), (inner, inner_turn) = both(
+        lambda: side(OUTER, OUTSIDE), lambda: side(INNER, INSIDE), len(width) > BLOCK_SAMPLES
+    )
+    pieces = [outer, inner, *_at_ends(strokes, ends, outer_turn, inner_turn)]
     return _with_ink(strokes, _loops(strokes, _Pieces(*map(np.concatenate, zip(*pieces, strict=True)))))
 
 
@@ -203,9 +209,16 @@ def _loops(strokes: Strokes, pieces: _Pieces) -> Paths:
     along = pieces.along - pieces.along.min(initial=0)
     order = np.argsort((4 * number + pieces.part) * (along.max(initial=0) + 1) + along, kind="stable")
     loop_first = np.flatnonzero(np.diff(number[order], prepend=-1))
-    arcs = arcs_through(pieces.start[order], pieces.middle[order], pieces.end[order])
+    arcs = _arcs_of(pieces, order)
     shape_start = offsets(pieces.stroke[order][loop_first], len(strokes.run))
     return Paths(arcs, np.append(loop_first, len(order)), shape_start)
+
+
+def _arcs_of(pieces: _Pieces, rows: Ints) -> PlaneArcs:
+    """The arcs of the given pieces, in blocks that stay in cache, shared by threads."""
+    parts = np.array_split(rows, len(rows) // BLOCK_ARCS + 1)
+    found = in_threads(lambda row: arcs_through(*(column.take(row, axis=0) for column in pieces[3:])), parts)
+    return PlaneArcs(*(np.concatenate(column) for column in zip(*found, strict=True)))
 
 
 def _with_ink(strokes: Strokes, paths: Paths) -> tuple[Strokes, Paths]:
