@@ -33,6 +33,11 @@ class PlaneArcs(NamedTuple):
         """Return the derivatives (k, 2) at one parameter per arc, in the direction of growing t."""
         return self.v * np.cos(t)[:, None] - self.u * np.sin(t)[:, None]
 
+    def at_with_tangent(self, t: Floats) -> tuple[Floats, Floats]:
+        """Return both of these, for less than each alone."""
+        cosine, sine = np.cos(t)[:, None], np.sin(t)[:, None]
+        return self.c + self.u * cosine + self.v * sine, self.v * cosine - self.u * sine
+
     def stop(self) -> Floats:
         """Return the parameters (k,) at which the arcs end."""
         return self.start + self.sweep

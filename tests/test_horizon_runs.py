@@ -81,7 +81,7 @@ def test_runs_come_out_under_the_horizon_of_a_nearer_sphere(seed: int, distance:
     view_map, view, runs = runs_of(seed, 30, distance)
     near, vertices = occluders_of(view_map.spheres, view).nearness(), runs.vertices
     for ends, point in zip(runs.ends, (runs.arcs.starts(), runs.arcs.ends()), strict=True):
-        above = vertices.on_other_run(ends)
+        above = vertices.partner[ends]
         rows = np.flatnonzero((above >= 0) & ~runs.closed)
         run, place = vertices.run[above[rows]], vertices.place[above[rows]]
         host = runs.arcs.take(run)

@@ -175,7 +175,7 @@ def test_widths_do_not_jump_and_agree_where_lines_meet(
     pen, step = STYLE.silhouette.at(SCALE), runs.spacing / FADE
     assert np.all(np.abs(np.diff(width))[inner] <= 3 * step * pen)
     for rows in widths.ends:
-        other = runs.vertices.on_other_run(rows)
+        other = runs.vertices.partner[rows]
         known = np.flatnonzero(~runs.closed & (other >= 0))
         here, there = (
             at_places(width, runs, runs.vertices.run[row[known]], runs.vertices.place[row[known]])
@@ -314,7 +314,7 @@ def test_lines_that_pass_under_a_line_end_under_its_ink(seed: int, distance: flo
     for row in np.flatnonzero(~strokes.whole).tolist():
         points = polygon(found[int(paths.shape_start[row])])
         for at in strokes.ends[:, row].tolist():
-            other = int(runs.vertices.on_other_run(np.array([at]))[0]) if at >= 0 else -1
+            other = int(runs.vertices.partner[np.array([at])][0]) if at >= 0 else -1
             if other < 0 or at not in runs.ends or other in widths.ends:
                 continue  # in the open, or a corner
             host, place = runs.vertices.run[[other]], runs.vertices.place[[other]]

@@ -117,8 +117,8 @@ class MapComposer:
         layers: list[Layer] = []
         if self.fill != "none":
             many = len(self.looks.fill) > MANY  # both ask for the looks, which are known now
-            regions, _ = both(self.regions, lambda: self.inking, many)
-            layers += [regions, *self.sticks(), *self.shade(), *self.light()]
+            regions, _ = both(lambda: [self.regions(), *self.sticks()], lambda: self.inking, many)
+            layers += [*regions, *self.shade(), *self.light()]
         return [*layers, *self.hatching(), *self.edges(), *self.ink()]
 
     @cached_property

@@ -211,7 +211,7 @@ def _entering(width: Floats, runs: HorizonRuns, least: Floats) -> tuple[Floats, 
     for end, distance in enumerate(distances_from_ends(runs)):
         row, away = _last_vertices(width, runs, end)
         met = np.where(away < np.inf, widest_other(width, runs, row) > 0, True)
-        enters = ~runs.closed & (runs.vertices.on_other_run(runs.ends[end]) < 0)
+        enters = ~runs.closed & (runs.vertices.partner[runs.ends[end]] < 0)
         goes_on = np.zeros(len(away), dtype=bool)
         goes_on[owner[wide[distance[wide] < away[owner[wide]]]]] = True
         corner = enters & met & (away < CORNER) & ~goes_on
@@ -236,7 +236,7 @@ def _last_vertices(width: Floats, runs: HorizonRuns, end: int) -> tuple[Ints, Fl
     inner = np.flatnonzero(~is_end)
     run, place = vertices.run[inner], vertices.place[inner]
     distance = np.abs(end * last[run] - place) * (runs.length() / last)[run]
-    partner = vertices.on_other_run(inner)
+    partner = vertices.partner[inner]
     meets = (partner >= 0) & (at_places(width, runs, vertices.run[partner], vertices.place[partner]) > 0)
     first = meets & (distance < CORNER)
     nearest, away = np.full((2, len(last)), np.inf)
@@ -286,7 +286,7 @@ def _joining(width: Floats, runs: HorizonRuns, ends: Ints) -> Floats:
         there = runs.vertices.place[row] * runs.length() / runs.last()
         distance = np.abs(from_start - there[owner])
         own = at_places(width, runs, runs.vertices.run[row], runs.vertices.place[row])
-        partner = runs.vertices.on_other_run(row)
+        partner = runs.vertices.partner[row]
         other = at_places(width, runs, runs.vertices.run[partner], runs.vertices.place[partner])
         silhouette = runs.behind[edge] == BACKGROUND
         other = np.where((other > THINNER * own) & ~silhouette, other, widest)
@@ -322,7 +322,7 @@ def _met_by_others(runs: HorizonRuns, width: Floats, first: Ints, last: Ints) ->
     """Under which stretches, samples ``first`` to ``last``, drawn lines end."""
     under = []
     for ends, edge in zip(runs.ends, _edges(runs), strict=True):
-        row = runs.vertices.on_other_run(ends[(width[edge] > 0) & ~runs.closed])
+        row = runs.vertices.partner[ends[(width[edge] > 0) & ~runs.closed]]
         under.append((runs.start[runs.vertices.run[row]] + runs.vertices.place[row])[row >= 0])
     at = np.sort(np.concatenate(under))
     return np.asarray(np.searchsorted(at, last, side="right") > np.searchsorted(at, first))

@@ -79,7 +79,7 @@ def ends_of(runs: HorizonRuns, strokes: Strokes, width: Floats, all_ink: Floats)
     count = len(strokes.run)
     stroke, end = np.tile(np.arange(count), 2), np.repeat([0, 1], count)
     run, place, at = strokes.run[stroke], np.append(strokes.first, strokes.last), strokes.ends.ravel()
-    row = np.where(at >= 0, runs.vertices.on_other_run(at), -1)
+    row = np.where(at >= 0, runs.vertices.partner[at], -1)
     under = np.flatnonzero(row >= 0)
     host, host_place, facing = np.full(2 * count, -1), np.zeros(2 * count), np.ones(2 * count)
     host[under], host_place[under] = runs.vertices.run[row[under]], runs.vertices.place[row[under]]

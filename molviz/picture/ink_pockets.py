@@ -77,8 +77,8 @@ def _with_room(
     share, arcs = number / (count - 1)[row], view_map.arcs.take(arc[row])
     first, last = runs.place_of_arc[:, arc[row]]
     width = at_places(widths.width, runs, runs.run_of_arc[arc[row]], first + share * (last - first))
-    t = arcs.start + share * arcs.sweep
-    point, tangent = arcs.at(t), arcs.tangent(t) * np.where(back[row], -1.0, 1.0)[:, None]
+    point, tangent = arcs.at_with_tangent(arcs.start + share * arcs.sweep)
+    tangent *= np.where(back[row], -1.0, 1.0)[:, None]
     inwards = np.column_stack([-tangent[:, 1], tangent[:, 0]]) / np.hypot(*tangent.T)[:, None]
     reach = width * np.where(back[row], OUTSIDE, -INSIDE) + neck / 2
     center = point + reach[:, None] * inwards

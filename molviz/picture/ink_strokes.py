@@ -80,7 +80,7 @@ def frames_at(runs: HorizonRuns, run: Ints, place: Floats) -> Frames:
     """Return the frames at places (q,) of runs."""
     arcs, samples = runs.arcs.take(run), (np.diff(runs.start) - 1)[run]
     t = arcs.start + arcs.sweep * place / samples
-    tangent = arcs.tangent(t)
+    point, tangent = arcs.at_with_tangent(t)
     speed = np.hypot(*tangent.T)
     normal = np.column_stack([tangent[:, 1], -tangent[:, 0]]) / speed[:, None]
-    return Frames(arcs.at(t), normal, speed**3 / np.abs(cross(arcs.u, arcs.v)), speed * arcs.sweep / samples)
+    return Frames(point, normal, speed**3 / np.abs(cross(arcs.u, arcs.v)), speed * arcs.sweep / samples)

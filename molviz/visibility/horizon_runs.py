@@ -32,15 +32,7 @@ class Vertices(NamedTuple):
     run: Ints  # (p,)
     place: Floats  # (p,) samples, a fractional count from the run's start
     node: Ints  # (p,) the same for all that are closer to each other along runs than NODE
-
-    def on_other_run(self, row: Ints) -> Ints:
-        """Return for each of the given rows (q,) that of the same vertex on another run, −1 where there is none."""
-        begin, end = (np.searchsorted(self.vertex, self.vertex[row], side=side) for side in ("left", "right"))
-        query, entry = expand(begin, end)
-        other = np.flatnonzero(self.run[entry] != self.run[row][query])
-        found = np.full(len(row), -1)
-        found[query[other]] = entry[other]
-        return found
+    partner: Ints  # (p,) the row of the same vertex on another run, −1 where there is none
 
 
 class HorizonRuns(NamedTuple):
@@ -180,7 +172,19 @@ def _vertices(vertex: Ints, run: Ints, place: Floats, length: Floats, last: Ints
     numbers = np.arange(len(last))
     first, final = np.searchsorted(run[:count], numbers), np.searchsorted(run[:count], numbers, side="right") - 1
     place[count + final] = last  # exactly
-    return Vertices(vertex[same], run[same], place[same], node[same]), row_of[np.stack([first, count + final])]
+    vertex, run = vertex[same], run[same]
+    table = Vertices(vertex, run, place[same], node[same], _partners(vertex, run))
+    return table, row_of[np.stack([first, count + final])]
+
+
+def _partners(vertex: Ints, run: Ints) -> Ints:
+    """The last row of the same vertex on another run for each row (p,), −1 where there is none."""
+    begins = np.flatnonzero(np.diff(vertex, prepend=-1))
+    size = np.diff(begins, append=len(vertex))
+    last = np.repeat(begins + size - 1, size)
+    elsewhere = run != run[last]
+    other = np.where(elsewhere, np.arange(len(run)), -1)
+    return np.where(elsewhere, last, np.repeat(np.maximum.reduceat(other, begins), size) if len(begins) else other)
 
 
 def _width(arcs: PlaneArcs) -> float:

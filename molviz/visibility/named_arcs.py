@@ -97,7 +97,7 @@ def _names(
     why, other = np.append(reason, -1)[row], np.append(sphere, -1)[row]
     is_crease, whole = curves.is_crease()[curve], row < 0
     name = named(np.full(len(curve), TEE), side, number, other, -1)
-    name[whole] = named(np.full(len(curve), WHOLE), 0, number, -1, -1)[whole]
+    name[whole] = named(np.full(int(whole.sum()), WHOLE), 0, number[whole], -1, -1)
     triple = ~whole & is_crease & (why == BALL)
     name[triple] = _triple(first[triple], second[triple], other[triple], side)
     sinks = ~whole & is_crease & (why == OWN)

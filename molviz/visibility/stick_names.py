@@ -49,6 +49,8 @@ def _sorted(*columns: Ints) -> list[Ints]:
     return list(np.sort(np.stack(columns), axis=0))
 
 
-def _write(name: Ints, rows: Bools, kind: int, side: Ints, *numbers: Ints) -> None:
-    filled = [*numbers, *[np.full(len(side), -1)] * (3 - len(numbers))]
-    name[rows] = named(np.full(len(side), kind), side, *filled)[rows]
+def _write(name: Ints, where: Bools, kind: int, side: Ints, *numbers: Ints) -> None:
+    rows = np.flatnonzero(where)
+    none = np.full(len(rows), -1)
+    filled = [*(column[rows] for column in numbers), *[none] * (3 - len(numbers))]
+    name[rows] = named(np.full(len(rows), kind), side[rows], *filled)

@@ -64,14 +64,14 @@ def in_equal_pieces(paths: Paths, count: Ints) -> Paths:
 
 def flat(arcs: PlaneArcs) -> Bools:
     """Return which arcs (k,) run along their chords, never backwards, and hardly leave them."""
-    start, middle, end = arcs.starts(), arcs.at(arcs.middle()), arcs.ends()
-    chord = end - start
+    (start, first), (end, last) = (arcs.at_with_tangent(t) for t in (arcs.start, arcs.stop()))
+    middle, chord = arcs.at(arcs.middle()), end - start
     length = np.hypot(*chord.T)
     with np.errstate(divide="ignore", invalid="ignore"):
         beside = np.abs(cross(chord, middle - start)) / length
     onward = np.ones(len(length), dtype=bool)
-    for t in (arcs.start, arcs.stop()):
-        onward &= dot(arcs.tangent(t) * np.sign(arcs.sweep)[:, None], chord) > 0
+    for tangent in (first, last):
+        onward &= dot(tangent * np.sign(arcs.sweep)[:, None], chord) > 0
     return np.asarray((beside < FLAT) & onward & (np.abs(arcs.sweep) < np.pi))
 
 
@@ -131,4 +131,5 @@ def bezier_pieces(major: Floats, sweep: Floats) -> Ints:
 def bezier_handles(arcs: PlaneArcs) -> tuple[Floats, Floats]:
     """Return the two inner control points (k, 2) of the cubic for each arc: ends ± ``4/3 tan(φ/4)`` times tangent."""
     reach = (4 / 3 * np.tan(arcs.sweep / 4))[:, None]
-    return arcs.starts() + reach * arcs.tangent(arcs.start), arcs.ends() - reach * arcs.tangent(arcs.stop())
+    (start, first), (end, last) = (arcs.at_with_tangent(t) for t in (arcs.start, arcs.stop()))
+    return start + reach * first, end - reach * last
