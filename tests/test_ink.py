@@ -32,10 +32,10 @@ from molviz.picture.ink import (
     line_widths,
     widest_other,
 )
-from molviz.picture.ink_ends import INSIDE, LONGEST_MITRE, OUTSIDE
+from molviz.picture.ink_ends import INSIDE, LONGEST_MITRE, OUTSIDE, ends_of
 from molviz.picture.ink_pockets import inked_arcs, pockets
-from molviz.picture.ink_shapes import NECK, in_colors, inked
-from molviz.picture.ink_strokes import Strokes
+from molviz.picture.ink_shapes import NECK, arcs_through, in_colors, inked, outlined
+from molviz.picture.ink_strokes import Strokes, strokes_of
 from molviz.picture.style import load_style
 from molviz.visibility.horizon_runs import SPACING, STRAIGHT, HorizonRuns, horizon_runs
 from molviz.visibility.map import BACKGROUND, VisibilityMap
@@ -255,6 +255,17 @@ def test_hardly_a_shape_crosses_itself(distance: float | None) -> None:
     assert shapes > 400 and crossed <= 0.005 * shapes
 
 
+def test_no_arc_goes_the_long_way_round() -> None:
+    """Found as a black disc on sticks of 1AON: where a line crosses its own end, the middle of three points nearly in a
+    line lies beyond both others, and the circle through them may be as large as the page."""
+    start, end = np.zeros((3, 2)), np.array([[1.0, 0.0], [1.0, 0.0], [1.0, 0.0]])
+    middle = np.array([[0.5, 0.5], [1.1, 1e-3], [-0.2, 1e-6]])
+    arcs = arcs_through(start, middle, end)
+    assert np.allclose(np.abs(arcs.sweep), np.pi) and np.allclose(np.hypot(*arcs.u.T), 0.5)
+    assert np.allclose(arcs.at(arcs.middle()), [[0.5, 0.5], [0.5, 0.0], [0.5, 0.0]])
+    assert np.allclose(arcs.starts(), start) and np.allclose(arcs.ends(), end)
+
+
 def test_a_sphere_alone_has_a_ring_of_even_width() -> None:
     _, _, widths, strokes, paths = drawn(Spheres(np.zeros((1, 3)), np.array([1.5])), View(np.eye(3), np.zeros(3)))
     pen = STYLE.silhouette.at(SCALE)
@@ -327,6 +338,31 @@ def test_lines_that_pass_under_a_line_end_under_its_ink(seed: int, distance: flo
             seen += 1
             assert horizon_gap(runs, int(host[0]), close).min(initial=0.0) > INSIDE * wide - 0.02
     assert seen > 10
+
+
+@pytest.mark.parametrize("distance", DISTANCES)
+def test_dark_lines_stop_at_the_ink_of_lines_across_them(distance: float | None) -> None:
+    """Dark ink is drawn on the things' own: where a line ends under one of these, it stops at its edge.
+
+    Short strokes, and the few that curve so that they never meet that edge, end as they may.
+    """
+    gaps = []
+    for seed in range(40):
+        scene = random_spheres(seed, 60, 9.0)
+        _, runs, widths, _, _ = drawn(scene, file_axes(scene, distance), groups=2)
+        dark = np.where(widths.width * widths.dark >= THINNEST, widths.width * widths.dark, 0.0)
+        strokes = strokes_of(runs, dark > 0, widths.ends)
+        ends = ends_of(runs, strokes, dark, widths)
+        drawn_ones, paths = outlined(runs, strokes, dark, widths, NECK * STYLE.silhouette.at(SCALE))
+        begins = zip(drawn_ones.run.tolist(), drawn_ones.first.tolist(), strict=True)
+        shapes = {begin: row for row, begin in enumerate(begins)}
+        for row in np.flatnonzero(ends.bars() > 0).tolist():
+            shape = shapes[strokes.run[ends.stroke[row]], strokes.first[ends.stroke[row]]]
+            points = polygon(loops(paths)[int(paths.shape_start[shape])])
+            close = points[np.hypot(*(points - ends.frame.point[row]).T) < 0.7 * ends.width[row]]
+            if ends.most[row] * ends.frame.step[row] > 2 * ends.width[row]:
+                gaps.append(horizon_gap(runs, int(ends.host[row]), close).min(initial=1.0) / ends.barred[row])
+    assert len(gaps) > 8 and np.mean(np.array(gaps) > 0.8) > 0.8
 
 
 @pytest.mark.parametrize(("radius", "half"), [(1.7, 1.5), (1.7, 1.0), (1.7, 0.4), (3.0, 2.9)])

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.picture.ink import at_places
+from molviz.picture.ink import Widths, at_places
 from molviz.picture.ink_strokes import Frames, Strokes, frames_at
 from molviz.vectors import dot
 from molviz.visibility.horizon_runs import HorizonRuns
@@ -23,6 +23,7 @@ COVERS = 0.8  # of a line's width: a line so wide hides its end
 OVERLAPPING = 0.97 * OUTSIDE  # of a line's width: as far outside its horizon ink beside it begins
 LONGEST_MITRE = 1.5  # of the width of the wider line: sides that would meet farther away make a spike so long
 OVERLAP = 0.1  # of a line's width by which lines that make a corner lie on each other: no seam shows between them
+ALONG = 0.75  # cosine between the normals of two lines that run along each other rather than meet
 SMOOTH = 0.99  # cosine between the normals of two lines that go on in each other: no side crosses that of the other
 HIDDEN = 0.9  # of the inner part of a line under which others end
 TOUCHES = 3  # rounds in which the places are found where a disc touches two lines of varying width
@@ -43,10 +44,15 @@ class Ends(NamedTuple):
     host_place: Floats
     host_width: Floats
     facing: Floats  # cosine between the two horizons' normals; 1 under none
+    barred: Floats  # how far outside the host's horizon its ink, another one, goes on across the end; 0 where none does
     tip: Bools  # the line ends in the open, not in a point
     mate: Ints  # the run with which it makes a corner, or else the host
     mate_place: Floats
     mate_width: Floats  # 0 where there is no corner
+
+    def bars(self) -> Floats:
+        """Return how far outside of their hosts' horizons ends (2k,) stop, at ink drawn below them; 0 without."""
+        return np.where(self.tip & (self.mate_width == 0), self.barred, 0.0)
 
     def onwards(self) -> Floats:
         """Return the unit vectors (2k, 2) in which lines would go on."""
@@ -74,8 +80,8 @@ class Mitre(NamedTuple):
     point: Floats  # (2k, 2) to here
 
 
-def ends_of(runs: HorizonRuns, strokes: Strokes, width: Floats, all_ink: Floats) -> Ends:
-    """Return the ends of strokes whose ink is as wide as ``width`` (s,); that of all inks together is ``all_ink``."""
+def ends_of(runs: HorizonRuns, strokes: Strokes, width: Floats, all_ink: Widths) -> Ends:
+    """Return the ends of strokes whose ink is as wide as ``width`` (s,); ``all_ink`` is that of all inks together."""
     count = len(strokes.run)
     stroke, end = np.tile(np.arange(count), 2), np.repeat([0, 1], count)
     run, place, at = strokes.run[stroke], np.append(strokes.first, strokes.last), strokes.ends.ravel()
@@ -85,10 +91,13 @@ def ends_of(runs: HorizonRuns, strokes: Strokes, width: Floats, all_ink: Floats)
     host[under], host_place[under] = runs.vertices.run[row[under]], runs.vertices.place[row[under]]
     frame = frames_at(runs, run, place)
     facing[under] = dot(frame.normal[under], frames_at(runs, host[under], host_place[under]).normal)
-    above, covers = np.zeros(2 * count), np.zeros(2 * count)
-    above[under] = at_places(all_ink, runs, host[under], host_place[under])
+    above, covers, barred = np.zeros((3, 2 * count))
+    above[under] = at_places(all_ink.width, runs, host[under], host_place[under])
     covers[under] = at_places(width, runs, host[under], host_place[under])
     own = at_places(width, runs, run, place)
+    other_ink = all_ink._replace(width=np.where(width > 0, 0.0, all_ink.width))
+    barred[under] = OVERLAPPING * _least_past(runs, other_ink, host[under], host_place[under], own[under])
+    barred[np.abs(facing) > ALONG] = 0.0
     vertex = runs.vertices.vertex
     corner = (at >= 0) & np.isin(vertex[at], vertex[at[(at >= 0) & (at != runs.ends[end, run])]])
     tip = (at >= 0) & (own > 0) & (corner | (covers < COVERS * own))
@@ -96,8 +105,18 @@ def ends_of(runs: HorizonRuns, strokes: Strokes, width: Floats, all_ink: Floats)
     _pair(mates, np.flatnonzero(tip & (above == 0)), runs.vertices.node[at], _Mates(run, place, own))
     return Ends(
         stroke, run, 2.0 * end - 1.0, place, (strokes.last - strokes.first)[stroke] / 2, frame, own,
-        host, host_place, above, facing, tip, *mates,
+        host, host_place, above, facing, barred, tip, *mates,
     )  # fmt: skip
+
+
+def _least_past(runs: HorizonRuns, ink: Widths, run: Ints, place: Floats, reach: Floats) -> Floats:
+    """The least width (q,) at places of runs and so many ångström (q,) before and behind them, 0 where ink ended."""
+    least, samples = at_places(ink.width, runs, run, place), reach / frames_at(runs, run, place).step
+    first, last = runs.vertices.place[ink.ends[:, run]]
+    for past in (place - samples, place + samples):
+        drawn = runs.closed[run] | ((past >= first) & (past <= last))
+        least = np.where(drawn, np.minimum(least, at_places(ink.width, runs, run, past)), 0.0)
+    return least
 
 
 class _Mates(NamedTuple):
@@ -152,10 +171,11 @@ def mitres(runs: HorizonRuns, ends: Ends, share: float) -> Mitre:
 def _level(ends: Ends, share: float) -> Floats:
     """How far outside the horizon of the mate sides stop: where its own side is, or else on the horizon.
 
-    Ends that it hides go on under its ink where their sides would cross the horizon far away.
+    Ends that it hides go on under its ink where their sides would cross the horizon far away; tips that it does not
+    hide, of another ink or wider than it, stop at its ink where that goes on past them.
     """
     hidden = ~ends.tip & ((ends.facing < 0) | (share < 0))
-    return share * ends.mate_width + np.where(hidden, HIDDEN * INSIDE * ends.host_width, 0.0)
+    return np.asarray(share * ends.mate_width + ends.bars() + np.where(hidden, HIDDEN * INSIDE * ends.host_width, 0.0))
 
 
 def discs(runs: HorizonRuns, ends: Ends, width: Floats, all_ink: Floats, share: float, neck: float) -> Disc:

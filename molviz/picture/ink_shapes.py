@@ -18,6 +18,7 @@ from molviz.visibility.horizon_runs import HorizonRuns
 TOLERANCE = 0.01  # ångström by which a side may be off
 FLAT = 2e-4  # ångström by which an arc may differ from its chord to be drawn as that
 LONGEST_TURN = 2.0  # radians of a horizon along which one arc may run
+MOST_TURN = 1.05 * np.pi  # radians of an arc: round tips are half circles
 GROWTH = 1.5  # by which arcs may be longer, of how far they are from shorter ones
 BLOCK_ARCS = 1 << 13  # at a time, some forty columns each
 NECK = 0.4  # of the widest line: where less is left between two lines that meet, ink fills it
@@ -42,15 +43,15 @@ def inked(runs: HorizonRuns, widths: Widths, neck: float) -> tuple[Strokes, Path
     own = widths.width > 0
     own &= widths.dark < ALL
     dark = np.where(widths.width * widths.dark >= THINNEST, widths.width * widths.dark, 0.0)
-    one, one_paths = outlined(runs, strokes_of(runs, own, widths.ends), widths.width, widths.width, neck)
-    other, other_paths = outlined(runs, strokes_of(runs, dark > 0, widths.ends), dark, widths.width, neck)
+    one, one_paths = outlined(runs, strokes_of(runs, own, widths.ends), widths.width, widths, neck)
+    other, other_paths = outlined(runs, strokes_of(runs, dark > 0, widths.ends), dark, widths, neck)
     is_dark = np.repeat([False, True], [len(one.run), len(other.run)])
     strokes = Strokes(*(np.concatenate(columns, axis=-1) for columns in zip(one, other, strict=True)))
     return strokes, stacked([one_paths, other_paths]), is_dark
 
 
 def outlined(
-    runs: HorizonRuns, strokes: Strokes, width: Floats, all_ink: Floats, neck: float
+    runs: HorizonRuns, strokes: Strokes, width: Floats, all_ink: Widths, neck: float
 ) -> tuple[Strokes, Paths]:
     """Return one shape per stroke, the ink inside; two loops where it is a ring. Strokes without ink are left out.
 
@@ -60,7 +61,7 @@ def outlined(
     ends, taken = ends_of(runs, strokes, width, all_ink), _arcs_taken(runs, width)
 
     def side(part: int, share: float) -> tuple[_Pieces, _Turn]:
-        disc, mitre = discs(runs, ends, width, all_ink, share, neck), mitres(runs, ends, share)
+        disc, mitre = discs(runs, ends, width, all_ink.width, share, neck), mitres(runs, ends, share)
         most = np.where(disc.fits | mitre.cut | (share < 0), np.inf, _most_outside(ends))
         stops = np.where(disc.fits, disc.place, mitre.place)
         stroke, number, points = _side(runs, strokes, taken, share * width, stops, most)
@@ -84,7 +85,17 @@ class _Turn(NamedTuple):
     def joint(self, ends: Ends) -> Floats:
         """Return the points (2k, 2) from which the line goes across to the other side."""
         joint = np.where(self.mitre.beyond[:, None], self.mitre.point, self.corner)
-        return np.where(self.disc.fits[:, None], ends.frame.point, joint)
+        on_host = np.where(self._barred(ends), self.mitre.point, ends.frame.point)
+        return np.where(self.disc.fits[:, None], on_host, joint)
+
+    def way(self, ends: Ends) -> Floats:
+        """Return the points (2k, 2) halfway back to there from where discs touch."""
+        straight = (self.disc.touched + self.joint(ends)) / 2
+        return np.where(self._barred(ends), straight, self.disc.way)
+
+    def _barred(self, ends: Ends) -> Bools:
+        """Whether ends (2k, 1) are cut off by ink below them, rather than hidden."""
+        return np.asarray((self.mitre.cut & (ends.bars() > 0))[:, None])
 
 
 def _most_outside(ends: Ends) -> Floats:
@@ -181,11 +192,11 @@ def _at_ends(strokes: Strokes, ends: Ends, outer: _Turn, inner: _Turn) -> list[_
     pieces = []
     for number, (rows, points) in enumerate((
         (outer.disc.fits, (outer.corner, outer.disc.middle, outer.disc.touched)),
-        (outer.disc.fits, (outer.disc.touched, outer.disc.way, one)),
+        (outer.disc.fits, (outer.disc.touched, outer.way(ends), one)),
         (outer.mitre.beyond & ~outer.disc.fits, (outer.corner, outer.mitre.middle, one)),
         (~strokes.whole[ends.stroke], (one, across, other)),
         (inner.mitre.beyond & ~inner.disc.fits, (other, inner.mitre.middle, inner.corner)),
-        (inner.disc.fits, (other, inner.disc.way, inner.disc.touched)),
+        (inner.disc.fits, (other, inner.way(ends), inner.disc.touched)),
         (inner.disc.fits, (inner.disc.touched, inner.disc.middle, inner.corner)),
     )):  # fmt: skip
         forwards, rows = ends.onward > 0, rows & (np.hypot(*(points[0] - points[2]).T) > NOTHING)
@@ -235,7 +246,11 @@ def _shapes_taken(paths: Paths, shapes: Ints) -> Paths:
 
 
 def arcs_through(start: Floats, middle: Floats, end: Floats) -> PlaneArcs:
-    """Return the arcs of circles through three points each, straight where these are nearly in a line."""
+    """Return the arcs of circles through three points each, straight where these are nearly in a line.
+
+    No line turns by more than half a turn between them: where an arc would, a line crosses its own end there, and the
+    middle point lies beyond both others.
+    """
     a, b = middle - start, end - start
     area, size = 2 * cross(a, b), dot(b, b)
     between = dot(a, b) * (size - dot(a, b)) > 0  # the middle point, as seen from the chord
@@ -247,6 +262,7 @@ def arcs_through(start: Floats, middle: Floats, end: Floats) -> PlaneArcs:
     to_end = b - center
     angle = np.mod(np.arctan2(dot(v, to_end), dot(u, to_end)), 2 * np.pi)
     sweep = np.where(area > 0, angle, angle - 2 * np.pi)
+    flat |= np.abs(sweep) > MOST_TURN
     line = straight_pieces(start, end)
     pick = flat[:, None]
     return PlaneArcs(
