@@ -89,7 +89,7 @@ class _Ends:
         if line and line[0][line[1], 0] >> 1 == EDGE:
             self._end_behind(line, sphere)
         if (ENTRY * 2 + side, sphere, half) not in horizon_ends:
-            for place in horizon_ends.get((TEE, sphere, self._line(half, side)), [])[:1]:
+            for place in horizon_ends.get((TEE * 2, sphere, self._line(half, side)), [])[:1]:
                 place[0][place[1]] = entry
 
     def _names(self) -> tuple[Ints, Ints]:
@@ -103,7 +103,7 @@ class _Ends:
         for name in self._names():
             for row in rows[np.isin(name[rows, 0] >> 1, (ENTRY, TEE))].tolist():
                 is_tee = name[row, 0] >> 1 == TEE
-                key = (TEE, int(own[row]), int(name[row, 2])) if is_tee else tuple(name[row, :3].tolist())
+                key = (TEE * 2, int(own[row]), int(name[row, 2])) if is_tee else tuple(name[row, :3].tolist())
                 ends.setdefault(key, []).append((name, row))
         return ends
 
