@@ -8,14 +8,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import molviz
+from molviz.errors import InternalError
+from molviz.geometry.general_position import Degenerate
 from molviz.geometry.planar_map import euler_defect, loop_areas
 from molviz.model.spheres import Spheres
 from molviz.model.sticks import Sticks
+from molviz.pipeline.views import rotation_of
 from molviz.visibility.checks import check_map
 from molviz.visibility.curves import BORDER, KINDS
 from molviz.visibility.eye import eye_coordinates, projection_of
 from molviz.visibility.map import BACKGROUND
-from molviz.visibility.scene import Scene
+from molviz.visibility.scene import Prepared, Scene, _map
 from molviz.visibility.view import View
 from tests.scenes import map_of
 from tests.stick_scenes import ball_and_stick, licorice, parallel_bonds, plain_sticks, seen_solids
@@ -95,6 +98,66 @@ def test_maps_close_along_bonds_planes_and_axes(name: str, thick: float, distanc
         scene = Scene(spheres, None, sticks)
         view = looking_along(way, center, distance)
         check_map(scene.map(view)[0], view)
+
+
+def maps_asked_of(scene: Scene, view: View, monkeypatch: pytest.MonkeyPatch) -> list[tuple[Sticks, list[int]]]:
+    """The sticks of each map that was made until one was in general position, and those said to be in special one."""
+    made = []
+
+    def asked(prepared: Prepared, view: View, **options: object) -> object:
+        made.append((prepared.sticks, []))
+        try:
+            return _map(prepared, view, **options)
+        except Degenerate as special:
+            made[-1][1].extend(special.rows.tolist())
+            raise
+
+    monkeypatch.setattr("molviz.visibility.scene._map", asked)
+    check_map(scene.map(view)[0], view)
+    return made
+
+
+def double_bond(seed: int) -> tuple[Scene, View]:
+    """A double bond of N and C, turned as a random quaternion says."""
+    turn = rotation_of(tuple(np.random.default_rng(seed).normal(size=4).tolist()))
+    sticks = Sticks(np.zeros(2, int), np.ones(2, int), np.full(2, 0.06), np.array([turn[:, 0], -turn[:, 0]]) * 0.118)
+    center = np.array([np.zeros(3), 1.4 * turn[:, 2]])
+    return Scene(Spheres(center, np.array([0.4248, 0.38])), sticks=sticks), View(np.eye(3), np.array([0.0, 0.0, 0.7]))
+
+
+def test_sticks_beside_the_line_of_centres_end_where_the_horizon_does(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The end of a line in a ball was once taken for that of the ball's horizon under the line."""
+    scene, view = double_bond(10790)
+    assert len(maps_asked_of(scene, view, monkeypatch)) == 1
+
+
+def test_only_sticks_in_special_position_are_moved(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In 1AON as balls and sticks some pairs among 60,000 are in special position however all are displaced."""
+    scene, view = double_bond(8797)
+    (first, concerned), (second, nothing) = maps_asked_of(scene, view, monkeypatch)
+    assert concerned == [0, 1] and nothing == []
+    ratio = second.offset / first.offset
+    assert ratio == pytest.approx(1 - 5e-3)
+
+
+def test_sticks_that_stay_in_special_position_move_further_and_then_all_is_displaced_anew(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked = []
+
+    def special(prepared: Prepared, view: View, **options: object) -> None:
+        asked.append(prepared)
+        raise Degenerate(np.array([1]))
+
+    monkeypatch.setattr("molviz.visibility.scene._map", special)
+    scene, view = double_bond(0)
+    with pytest.raises(InternalError, match="special position"):
+        scene.map(view)
+    moved = [one.sticks.offset[:, 0] / scene.sticks.offset[:, 0] for one in asked]
+    assert [row[1] for row in moved[:5]] == pytest.approx([1 - 5e-3 * (2**times - 1) for times in range(5)])
+    assert all(row[0] == pytest.approx(1.0) for row in moved[:5])
+    assert np.array_equal(asked[0].boundary.spheres.center, asked[4].boundary.spheres.center)
+    assert not np.array_equal(asked[4].boundary.spheres.center, asked[5].boundary.spheres.center)
 
 
 def test_a_stick_shows_the_rectangle_between_its_balls() -> None:

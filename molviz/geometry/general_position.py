@@ -21,11 +21,20 @@ NUDGE = 2e-8  # of a radius, for numbers: below 1e-7 Å for balls up to 5 Å, an
 GROWTH = 2.0  # of the displacement from one attempt to the next: in crystals along axes its square decides, too small
 ATTEMPTS = 8  # copies tried; of a molecule the second is needed about once in ten thousand pictures
 
+NONE: Ints = np.empty(0, dtype=np.int64)
+
 T = TypeVar("T")
 
 
 class Degenerate(Exception):  # noqa: N818 - not an error: the caller asks for the next copy
-    """The spheres are not in general position: how curves join would be a matter of rounding."""
+    """The spheres are not in general position: how curves join would be a matter of rounding.
+
+    ``rows`` are those of what is concerned, where that is known: vertices of a map, or sticks of a scene.
+    """
+
+    def __init__(self, rows: Ints = NONE) -> None:
+        super().__init__()
+        self.rows = rows
 
 
 def first_general(query: Callable[[int], T]) -> T:

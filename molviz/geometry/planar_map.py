@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints
+from molviz.arrays import Floats, Ints, distinct
 from molviz.curves import PlaneArcs
 from molviz.geometry.components import components
 from molviz.geometry.general_position import Degenerate
@@ -53,10 +53,20 @@ def planar_map(origin: Ints, target: Ints, left: Ints, right: Ints) -> PlanarMap
     balanced = np.array_equal(begin[leaving], end[arriving]) and np.array_equal(face[leaving], face[arriving])
     again = (np.diff(begin[leaving]) == 0) & (np.diff(face[leaving]) == 0)
     if not balanced or again.any():
-        raise Degenerate
+        raise Degenerate(_unbalanced(begin[used], end[used], face[used]))
     following = np.full(len(face), -1)
     following[arriving] = leaving
     return PlanarMap(begin, following, face)
+
+
+def _unbalanced(begin: Ints, end: Ints, face: Ints) -> Ints:
+    """The vertices at which some face is not entered exactly once and left once, by half-edges (m,)."""
+    key = np.stack([np.append(begin, end), np.append(face, face)])
+    leaves = np.repeat([True, False], [len(begin), len(end)])
+    faces, number = np.unique(key, axis=1, return_inverse=True)
+    left, entered = (np.bincount(number.ravel(), which, faces.shape[1]) for which in (leaves, ~leaves))
+    wrong: Ints = faces[0, (left != 1) | (entered != 1)]
+    return distinct(wrong)
 
 
 def merged_faces(edges: PlanarMap, label: Ints) -> PlanarMap:

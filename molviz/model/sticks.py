@@ -31,9 +31,14 @@ class Sticks(NamedTuple):
         """Return the sticks of which both spheres are among the given rows of ``count``, numbered in that order."""
         number = np.full(count, -1)
         number[rows] = np.arange(len(rows))
-        first, second = number[self.first], number[self.second]
-        kept = np.flatnonzero((first >= 0) & (second >= 0))
-        return Sticks(first[kept], second[kept], self.radius[kept], self.offset[kept])
+        kept = self.take(self.rows_among(rows, count))
+        return kept._replace(first=number[kept.first], second=number[kept.second])
+
+    def rows_among(self, rows: Ints, count: int) -> Ints:
+        """Return the rows of those sticks."""
+        known = np.zeros(count, dtype=bool)
+        known[rows] = True
+        return np.flatnonzero(known[self.first] & known[self.second])
 
 
 NO_STICKS = Sticks(np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64), np.empty(0), np.empty((0, 3)))

@@ -79,7 +79,7 @@ def _junctions(
     rows = np.flatnonzero((kind == TEE) | (kind == HALF))
     above = np.where(kind[rows] == TEE, name[rows, 2], name[rows, 1] + (name[rows, 0] & 1))
     if np.any(above < 0):
-        raise Degenerate
+        raise Degenerate(vertex[rows[above < 0]])
     points = curves.at(named.curve[rows], named.start[rows] + fraction * named.sweep[rows])
     angle = np.empty(len(rows))
     line = above >= count
@@ -89,7 +89,9 @@ def _junctions(
     angle[kind[rows] == HALF] = np.pi / 2
     contour = np.flatnonzero(curves.is_contour())
     snap = np.where(_beside_centres(curves, solids, named.curve[rows], above), SNAP_BESIDE, SNAP)
-    arc, offset = _located(named, contour[above], angle, snap)
+    arc, offset, exists = _located(named, contour[above], angle, snap)
+    if not exists.all():
+        raise Degenerate(vertex[rows[~exists]])
     return _Junctions(arc, offset, vertex[rows])
 
 
@@ -107,8 +109,11 @@ def _beside_centres(curves: Curves, solids: Solids, curve: Ints, above: Ints) ->
     return beside
 
 
-def _located(named: NamedArcs, curve: Ints, angle: Floats, snap: Floats) -> tuple[Ints, Floats]:
-    """The arc of each given curve on which the angle lies, or misses it by ``snap``, and the offset from its start."""
+def _located(named: NamedArcs, curve: Ints, angle: Floats, snap: Floats) -> tuple[Ints, Floats, Bools]:
+    """The arc of each given curve on which the angle lies, or misses it by ``snap``, and the offset from its start.
+
+    And whether there is one.
+    """
     begin, end = (np.searchsorted(named.curve, curve, side=side) for side in ("left", "right"))
     row, arc = expand(begin, end)
     offset = np.mod(angle[row] - named.start[arc], TURN)
@@ -117,11 +122,12 @@ def _located(named: NamedArcs, curve: Ints, angle: Floats, snap: Floats) -> tupl
     order = ordered(row, -outside)
     best = np.full(len(curve), -1)
     best[row[order]] = order  # the last one written is the closest
-    if np.any(best < 0) or np.any(outside[best] > snap):
-        raise Degenerate
+    exists = (best >= 0) & (np.append(outside, np.inf)[best] <= snap)
+    if not exists.all():
+        return best, angle, exists
     beyond = offset[best] - sweep[best]
     inside = np.where(beyond <= 0, offset[best], np.where(beyond < snap, sweep[best], 0.0))
-    return arc[best], inside
+    return arc[best], inside, exists
 
 
 def _split(named: NamedArcs, origin: Ints, target: Ints, tees: _Junctions) -> CurveArcs:

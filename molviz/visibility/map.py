@@ -11,13 +11,14 @@ import numpy as np
 from molviz.arrays import Bools, Ints, distinct
 from molviz.curves import PlaneArcs
 from molviz.geometry.boundary import Boundary
+from molviz.geometry.general_position import Degenerate
 from molviz.geometry.grid import Neighbours
 from molviz.geometry.planar_map import Loops, PlanarMap, loops, merged_faces, planar_map
 from molviz.model.spheres import Spheres
 from molviz.visibility.bounds import Bounds
 from molviz.visibility.curves import HORIZON, LINE, Curves
 from molviz.visibility.junctions import CurveArcs, split_at_junctions
-from molviz.visibility.named_arcs import Hidden, joined, visible_arcs
+from molviz.visibility.named_arcs import Hidden, joined, sticks_at, visible_arcs
 from molviz.visibility.occluders.stick import StickOccluders
 from molviz.visibility.occlusion import discs_of, overlaps
 from molviz.visibility.own_occlusion import creases_in_view, outside_free_arcs
@@ -108,7 +109,7 @@ def map_in_view(
     The spheres of ``solids`` are the wanted ones of the boundary, in eye coordinates; the map numbers them by their
     place in ``wanted``. Where a ``label`` (n,) from 0 of all the boundary's spheres is given (and no sticks), faces
     carry labels, and only what separates different ones is computed. ``each`` does the tiles of a large map of balls,
-    as ``map`` does. Raises ``Degenerate`` where the solids are not in general position.
+    as ``map`` does. Raises ``Degenerate``, of the sticks concerned, where the solids are not in general position.
     """
     number = np.arange(solids.balls + len(solids.sticks.ends.sphere))
     label = solids.seen_halves(number) if label is None else label[wanted]
@@ -125,9 +126,13 @@ def map_in_view(
     else:
         curves = creases.followed_by(horizons)
         named = visible_arcs_of(scene, each)
-    curve_arcs, entered = split_at_junctions(named, curves, solids, view.distance is not None)
-    sides = _sides(solids, curves, curve_arcs, entered, near, projection, bounds)
-    return _assembled(solids, curves, curve_arcs, np.append(label, BACKGROUND)[sides], projection)
+    try:
+        curve_arcs, entered = split_at_junctions(named, curves, solids, view.distance is not None)
+        sides = _sides(solids, curves, curve_arcs, entered, near, projection, bounds)
+        return _assembled(solids, curves, curve_arcs, np.append(label, BACKGROUND)[sides], projection)
+    except Degenerate as special:
+        concerned = sticks_at(named, curves, special.rows, solids.balls, solids.sticks.ends.sphere)
+        raise Degenerate(solids.sticks.row[concerned]) from None
 
 
 def _with_sticks(

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints
+from molviz.arrays import Floats, Ints, distinct
 from molviz.geometry.intervals import Intervals, gaps
 from molviz.threads import both
 from molviz.visibility.curves import Curves
@@ -118,6 +118,23 @@ def _triple(i: Ints, j: Ints, k: Ints, side: int) -> Ints:
 
 def _entry(sphere: Ints, other: Ints, side: Ints) -> Ints:
     return named(np.full(len(sphere), ENTRY), side, sphere, other, -1)
+
+
+def sticks_at(arcs: NamedArcs, curves: Curves, vertices: Ints, balls: int, end: Ints) -> Ints:
+    """Return the sticks, ascending, of what ends in the given vertices and is told of in their names, and of its balls.
+
+    ``end`` (2k,) is the ball of each half of a stick. Halves and lines of sticks, two of either for each stick, are
+    numbered from ``balls``.
+    """
+    numbers = []
+    for name, vertex in zip((arcs.origin, arcs.target), vertex_numbers(arcs.origin, arcs.target), strict=True):
+        rows = np.flatnonzero(np.isin(vertex, vertices))
+        of_arc = np.isin(name[rows, 0] >> 1, (TEE, WHOLE))  # the first number is that of the arc
+        numbers += [np.where(of_arc, -1, name[rows, 1]), *name[rows, 2:].T]
+        numbers += [curves.first[arcs.curve[rows]], curves.second[arcs.curve[rows]]]
+    number = np.concatenate(numbers)
+    beside = np.flatnonzero(np.isin(end, number[number < balls]))
+    return distinct(np.append(number[number >= balls] - balls, beside) >> 1)
 
 
 def vertex_numbers(*names: Ints) -> list[Ints]:

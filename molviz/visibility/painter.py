@@ -18,6 +18,7 @@ import numpy as np
 from molviz.arrays import Bools, Floats, Ints
 from molviz.curves import PlaneArcs
 from molviz.geometry.boundary import Boundary, inside_ball
+from molviz.geometry.general_position import Degenerate
 from molviz.geometry.planar_map import UNUSED, Loops, PlanarMap, loops, planar_map
 from molviz.geometry.rows import expand
 from molviz.visibility.curves import LINE, Curves
@@ -125,7 +126,10 @@ def _chained(curves: Curves, named: NamedArcs, sides: Sides, stack: Stack, proje
     piece, on_right = sides.piece[named.instance], sides.on_right[named.instance]
     left, right = np.where(on_right, UNUSED, piece), np.where(on_right, piece, UNUSED)
     curve_arcs = CurveArcs(named.curve, named.start, named.sweep, *vertex_numbers(named.origin, named.target))
-    edges = planar_map(curve_arcs.origin, curve_arcs.target, left, right)
+    try:
+        edges = planar_map(curve_arcs.origin, curve_arcs.target, left, right)
+    except Degenerate:
+        raise Degenerate from None  # of all: parts of sticks are many, and known by other numbers
     arcs = arcs_on_page(curves, curve_arcs.curve, curve_arcs.start, curve_arcs.sweep, projection)
     before, behind = (_beyond(curves, named, ends) for ends in (named.origin, named.target))
     start, sweep = curve_arcs.start - before, curve_arcs.sweep + before + behind

@@ -9,7 +9,15 @@ import numpy as np
 from molviz.arrays import Floats, Ints
 from molviz.errors import InputError, InternalError
 from molviz.geometry.boundary import Boundary, union_boundary
-from molviz.geometry.general_position import first_general, general_position, shrinkage
+from molviz.geometry.general_position import (
+    ATTEMPTS,
+    GROWTH,
+    NONE,
+    Degenerate,
+    first_general,
+    general_position,
+    shrinkage,
+)
 from molviz.model.spheres import Spheres
 from molviz.model.sticks import NO_STICKS, Sticks
 from molviz.visibility.culling import outlines, possibly_visible
@@ -30,6 +38,7 @@ T = TypeVar("T")
 # Of the offset of parallel sticks, less at each attempt: some 5e-4 Å, by which the ends of their rims may miss those of
 # horizons and lines, and what passes just there is in special position however little the spheres are displaced.
 NARROWER = 5e-3
+MOST_TIMES = 4  # that an offset is made less, by twice as much each time, before all spheres are displaced anew
 
 
 class Prepared(NamedTuple):
@@ -38,6 +47,7 @@ class Prepared(NamedTuple):
     boundary: Boundary
     row: Ints  # (s,)
     sticks: Sticks
+    stick: Ints  # (k,) rows of the scene's sticks
 
 
 class Scene:
@@ -75,27 +85,46 @@ class Scene:
         """The query's answer, displacing again as long as the spheres prove degenerate."""
         refuse_eye_among(self.spheres, view)
         try:
-            return first_general(lambda attempt: query(self._attempt(attempt), view))
+            return self._first_general(lambda prepared: query(prepared, view))
         except InternalError:
             if projection_of(view).keeps_circles:
                 raise
             raise InputError("too far an eye: numbers run out of digits; expected a nearer one, or none") from None
 
-    def _attempt(self, attempt: int) -> Prepared:
+    def _first_general(self, query: Callable[[Prepared], T]) -> T:
+        """The first answer without ``Degenerate``; sticks that are concerned are changed before all spheres are."""
+        times, attempt = np.zeros(len(self.sticks.radius), dtype=np.int64), 0
+        while attempt < ATTEMPTS:
+            prepared = self._attempt(attempt, times)
+            try:
+                return query(prepared)
+            except Degenerate as special:
+                rows = prepared.stick[special.rows]
+                rows = rows[np.any(self.sticks.offset[rows] != 0.0, axis=1)]
+                times[rows] += 1
+                if not len(rows) or times[rows].max() > MOST_TIMES:
+                    attempt += 1
+        raise InternalError(f"the spheres stay in special position after {ATTEMPTS} perturbations")
+
+    def _attempt(self, attempt: int, times: Ints) -> Prepared:
         if attempt not in self._prepared:
             self._prepared[attempt] = _prepare(self.spheres, self.sticks, attempt, self.only)
-        return self._prepared[attempt]
+        prepared = self._prepared[attempt]
+        less = NARROWER * (GROWTH ** times[prepared.stick] - 1.0)
+        offset = prepared.sticks.offset * (1.0 - less)[:, None]
+        return prepared._replace(sticks=prepared.sticks._replace(offset=offset))
 
 
 def _prepare(spheres: Spheres, sticks: Sticks, attempt: int, only: View | None) -> Prepared:
     displaced, row = general_position(spheres, attempt)
     radius, offset = sticks.radius * shrinkage(attempt), sticks.offset * (1.0 - attempt * NARROWER)
+    stick = sticks.rows_among(row, len(spheres.radius))
     sticks = sticks._replace(radius=radius, offset=offset).among(row, len(spheres.radius))
     if only is not None:
         keep = _wanted(displaced, sticks, only)
         sticks = sticks.among(keep, len(row))
         displaced, row = displaced.take(keep), row[keep]
-    return Prepared(union_boundary(displaced), row, sticks)
+    return Prepared(union_boundary(displaced), row, sticks, stick)
 
 
 def _wanted(spheres: Spheres, sticks: Sticks, view: View) -> Ints:
@@ -144,7 +173,7 @@ def labelled_map(spheres: Spheres, label: Ints, view: View) -> VisibilityMap:
         if attempt:
             return _prepare(spheres, NO_STICKS, attempt - 1, view)
         keep = _possibly_visible(spheres, view)
-        return Prepared(union_boundary(spheres.take(keep)), keep, NO_STICKS)
+        return Prepared(union_boundary(spheres.take(keep)), keep, NO_STICKS, NONE)
 
     return first_general(lambda attempt: _map(prepared(attempt), view, label)[0])
 
