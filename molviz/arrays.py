@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 else:  # importing numpy.typing takes longer than drawing a small molecule
     Floats = Ints = Bools = Strings = Singles = Masks = Octets = Words = ShortInts = Fields = Texts = np.ndarray
 
-Values = TypeVar("Values", "Floats", "Ints", "Strings")
+Values = TypeVar("Values", "Floats", "Ints", "Bools", "Strings")
 
 
 def distinct(values: Values) -> Values:

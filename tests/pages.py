@@ -56,7 +56,7 @@ def page(loaded: Loaded, method: str = "visible", eye: ViewOptions = FILE_AXES, 
     values = color_values(loaded, options.color_by)
 
     def subject(row: np.ndarray) -> Subject:
-        return Subject(loaded.molecule, row, low, high, values)
+        return Subject(loaded.molecule, entities_of(loaded.molecule), row, low, high, values)
 
     if method == "painter":
         pieces, row = Scene(loaded.spheres, only=view).pieces(view)

@@ -58,7 +58,8 @@ SCENE = scene()
 def subject(painted: tuple[Painted, ...] = (), labelled: tuple[Labelled, ...] = (), scheme: str = "") -> Subject:
     every = np.arange(len(SCENE.molecule))
     corner = np.zeros(2)
-    return Subject(SCENE.molecule, every, corner, corner, color_values(SCENE, scheme), painted, labelled)
+    entities, values = entities_of(SCENE.molecule), color_values(SCENE, scheme)
+    return Subject(SCENE.molecule, entities, every, corner, corner, values, painted, labelled)
 
 
 def settled(scheme: str | None, style: str | None = None) -> DrawOptions:

@@ -146,7 +146,7 @@ def painted_picture(spheres: Spheres, sticks: Sticks, view: View, **look: object
     molecule = Molecule.of("x", spheres.center, np.full(len(spheres.radius), "C"))
     options = DrawOptions(load_palette("tide"), **look).settled(entities_of(molecule), painted=True)
     pieces, row = Scene(spheres, None, sticks).pieces(view)
-    subject = Subject(molecule, row, *extent(spheres, view), np.full(len(molecule), np.nan))
+    subject = Subject(molecule, entities_of(molecule), row, *extent(spheres, view), np.full(len(molecule), np.nan))
     return picture_of_pieces(pieces, subject, options)
 
 

@@ -1,12 +1,13 @@
 """A molecule: named atoms in space, as a file or an object of another library described them."""
 
-from dataclasses import dataclass, field, fields
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints, Strings
+from molviz.arrays import Bools, Floats, Ints, Strings, Values
 from molviz.errors import InputError
 from molviz.model.bonds import NO_BONDS, Bonds
 
@@ -86,6 +87,18 @@ class Molecule:
         """Return the molecule of the given atoms, in that order."""
         columns = {name: getattr(self, name)[rows] for name in column_names()}
         return Molecule(name=self.name, **columns, stated_bonds=self.stated_bonds.take(rows, len(self)))
+
+    def filtered(self, keep: Bools) -> "Molecule":
+        """Return the molecule of the atoms to keep (n,)."""
+        return self if keep.all() else self.take(np.flatnonzero(keep))
+
+    def named(self, name: str) -> "Molecule":
+        """Return the molecule under another name."""
+        return replace(self, name=name)
+
+    def by_atom(self, rule: Callable[["Molecule"], Values]) -> Values:
+        """Return what a rule says of each atom (n,) that looks neither at places and chains nor at other atoms."""
+        return rule(self)
 
     @staticmethod
     def of(name: str, position: Floats, element: Strings, **columns: object) -> "Molecule":

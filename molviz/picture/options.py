@@ -8,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.model.entities import POLYMER, Entities, entities_of
+from molviz.model.entities import POLYMER, Entities
 from molviz.model.molecule import Molecule
 from molviz.picture.coloring import AtomColors, ColorSubject, atom_colors, order_of_appearance
 from molviz.picture.page import NO_MARGINS, Margins, Page
@@ -114,6 +114,7 @@ class Subject:
     """The molecule of a drawing, and how its atoms and its size relate to the geometry."""
 
     molecule: Molecule
+    entities: Entities  # of its atoms
     atom: Ints  # (s,) the atom of each sphere
     low: Floats  # (2,) ångström, of the bounding box of all images
     high: Floats  # (2,)
@@ -122,11 +123,6 @@ class Subject:
     labelled: tuple[Labelled, ...] = ()
     description: str = ""
     alike: Alike = Alike()
-
-    @cached_property
-    def entities(self) -> Entities:
-        """What each atom belongs to."""
-        return entities_of(self.molecule)
 
     @cached_property
     def seen_molecule(self) -> Molecule:

@@ -13,7 +13,7 @@ from molviz.arrays import Floats, Ints, distinct
 from molviz.errors import InputError
 from molviz.geometry.measure import measure_spheres
 from molviz.geometry.solids import BallsAndSticks
-from molviz.model.entities import entities_of
+from molviz.model.entities import Entities, entities_of
 from molviz.model.molecule import Molecule
 from molviz.model.selection import NO_ATOMS, check_selection, select
 from molviz.picture.compose import alike_with, picture_of_map, picture_of_pieces, placed_and_colored
@@ -100,8 +100,10 @@ class Drawing:
         return self._solids.notes + tuple(f"{self._loaded.source}: {note}" for note in told)
 
     def _shared_colors(self) -> Iterator[str]:
+        if self._options.color_by != "chain":
+            return
         chains = len(distinct(self._loaded.molecule.chain))
-        if self._options.color_by == "chain" and self._options.palette.repeats(chains):
+        if self._options.palette.repeats(chains):
             yield f"{chains} chains share {len(self._options.palette.chain)} colours; expected a palette of more"
 
     def _without_effect(self) -> Iterator[str]:
@@ -264,12 +266,13 @@ def drawings_of(
     scaled, views = in_unit(loaded, unit), [view_in_unit(view, unit) for view in views]
     solids = solids_in_unit(solids, unit)
     scene = Scene(solids.balls, views[0] if len(views) == 1 else None, solids.sticks, request.each)
-    options = request.options.settled(entities_of(scaled.molecule), method == "painter").in_unit(unit)
-    subject = replace(subject_of(loaded, request, options), molecule=scaled.molecule)
+    entities = entities_of(scaled.molecule)
+    options = request.options.settled(entities, method == "painter").in_unit(unit)
+    subject = replace(subject_of(loaded, entities, request, options), molecule=scaled.molecule)
     return [_seen_from(view, scene, solids, loaded, subject, options, method, check) for view in views]
 
 
-def subject_of(loaded: Loaded, request: DrawRequest, options: DrawOptions) -> Subject:
+def subject_of(loaded: Loaded, entities: Entities, request: DrawRequest, options: DrawOptions) -> Subject:
     """Return what there is to tell of a model, before anything is known of views; ``options`` are settled."""
     molecule, nowhere = loaded.molecule, np.zeros(2)
     values = color_values(loaded, str(options.color_by), options.unit)
@@ -278,7 +281,7 @@ def subject_of(loaded: Loaded, request: DrawRequest, options: DrawOptions) -> Su
     )
     labelled = tuple(labelled_of(molecule, label, loaded.model) for label in request.labels)
     none = np.empty(0, dtype=np.int64)
-    return Subject(molecule, none, nowhere, nowhere, values, painted, labelled, request.description)
+    return Subject(molecule, entities, none, nowhere, nowhere, values, painted, labelled, request.description)
 
 
 def _seen_from(

@@ -124,12 +124,16 @@ def _refuse_beads(whole: Molecule, molecule: Molecule, table: str, source: str) 
 
     Atoms that are called dummies are known to have none.
     """
-    known = np.any(whole.element != UNKNOWN) or np.any(np.isin(np.char.upper(whole.atom_name), DUMMIES))
+    known = np.any(whole.by_atom(lambda one: one.element != UNKNOWN)) or np.any(whole.by_atom(_is_dummy))
     if known or table == OWN or np.any(is_known(molecule, table)):
         return
     names = listed(list(dict.fromkeys(whole.atom_name.tolist())))
     message = f"no atom's element is known, as in coarse-grained models; the names are {names}"
     raise InputError(f"{message}; expected --radii FILE with [names] that gives their radii", source)
+
+
+def _is_dummy(molecule: Molecule) -> Bools:
+    return np.isin(np.char.upper(molecule.atom_name), DUMMIES)
 
 
 def _refuse_unheld(what: str, size: Floats, least: float, source: str) -> None:
@@ -165,7 +169,7 @@ def _kept(molecule: Molecule, wanted: InputOptions, source: str, model: int) -> 
     if not keep.any():
         chains = listed([name for name in dict.fromkeys(molecule.chain.tolist()) if name])
         raise InputError(f"no atoms are left by the selection; the chains are {chains or 'not named'}", source)
-    return molecule if keep.all() else molecule.take(np.flatnonzero(keep))
+    return molecule.filtered(keep)
 
 
 def _lining(spheres: Spheres, probe: float, source: str) -> Ints:
@@ -199,4 +203,4 @@ def _far_apart(spheres: Spheres) -> tuple[str, ...]:
 
 
 def _named(molecule: Molecule, source: str) -> Molecule:
-    return molecule if molecule.name else replace(molecule, name=PurePath(source).name)
+    return molecule if molecule.name else molecule.named(PurePath(source).name)

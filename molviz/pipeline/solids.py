@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Strings, among
+from molviz.arrays import Bools, Strings
 from molviz.errors import InputError, expected_instead
 from molviz.geometry.bonds import bonds_of
 from molviz.geometry.solids import BallsAndSticks, solids_of
@@ -73,23 +73,29 @@ def shown(loaded: Loaded, options: SolidOptions) -> tuple[Loaded, Strings]:
     Where elements share a site of a crystal, the first of them has the ball to which the sticks lead. Raises InputError
     where all are hidden.
     """
+    if not options.representations:
+        return loaded, np.broadcast_to(np.array(SPACEFILL), len(loaded.molecule))
     names = np.full(len(loaded.molecule), SPACEFILL, dtype=f"<U{max(map(len, REPRESENTATIONS))}")
     for selection, name in options.representations:
         names[select(loaded.molecule, selection, loaded.model)] = name
-    joined = np.flatnonzero(among(names, (BALL_AND_STICK, STICKS)))
+    joined = np.flatnonzero(_has_sticks(names))
     names[joined[coinciding_rows(loaded.molecule.position[joined])]] = HIDE
-    rows = np.flatnonzero(names != HIDE)
-    if len(rows) == len(names):
+    keep = names != HIDE
+    if keep.all():
         return loaded, names
-    if not len(rows):
+    if not keep.any():
         raise InputError("all atoms are hidden; expected one at least to draw", loaded.source)
-    spheres, bare = loaded.spheres.take(rows), loaded.bare.take(rows)
-    return loaded._replace(molecule=loaded.molecule.take(rows), spheres=spheres, bare=bare), names[rows]
+    spheres, bare = (balls.take(np.flatnonzero(keep)) for balls in (loaded.spheres, loaded.bare))
+    return loaded._replace(molecule=loaded.molecule.filtered(keep), spheres=spheres, bare=bare), names[keep]
+
+
+def _has_sticks(representation: Strings) -> Bools:
+    return np.asarray((representation == BALL_AND_STICK) | (representation == STICKS))
 
 
 def solids_for(loaded: Loaded, representation: Strings, options: SolidOptions) -> BallsAndSticks:
     """Return what stands for the atoms of a model without hidden ones; bonds are looked for where any are drawn."""
-    if not among(representation, (BALL_AND_STICK, STICKS)).any():
+    if not _has_sticks(representation).any():
         return BallsAndSticks(loaded.spheres, NO_STICKS, ())
     solids = solids_of(loaded.spheres, representation, bonds_of(loaded.molecule, options.bonds), options.sizes)
     return solids._replace(notes=tuple(f"{loaded.source}: {note}" for note in solids.notes))

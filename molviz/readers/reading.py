@@ -7,11 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from molviz.arrays import Floats, Ints, Strings
+from molviz.arrays import Floats, Strings
 from molviz.errors import InputError, listed
-from molviz.model.bonds import joined
-from molviz.model.molecule import Molecule, column_names
-from molviz.vectors import transformed
+from molviz.model.assembled import Assembled, Copy
+from molviz.model.molecule import Molecule
 
 
 class AssemblyPart(NamedTuple):
@@ -54,15 +53,21 @@ class Reading:
             known = listed(list(self.assemblies)) or "none"
             raise InputError(f"no assembly {id!r}; the file has operators for: {known}", self.source)
         molecule, chain = self.models[model], self.operator_chain[model]
-        copies: list[Molecule] = []
+        copies: list[Copy] = []
         made: Counter[str] = Counter()
         for part in self.assemblies[id]:
             rows = np.flatnonzero(np.isin(chain, list(part.chains))) if part.chains else np.arange(len(molecule))
-            copies += _copies(molecule, rows, part, max((made[name] for name in part.chains), default=0))
+            first = 1 + max((made[name] for name in part.chains), default=0)
+            copies += [Copy(rows, move, _suffix(number)) for number, move in enumerate(part.operators, first)]
             made.update({name: len(part.operators) for name in part.chains})
-        if not sum(map(len, copies)):
+        if not sum(len(copy.rows) for copy in copies):
             raise InputError(f"assembly {id!r} is made of chains that are not in the file", self.source)
-        return _joined(copies)
+        return Assembled.of_copies(molecule, copies)
+
+
+def _suffix(number: int) -> str:
+    """Return what the name of a chain's n-th copy ends in."""
+    return f"-{number}" if number > 1 else ""
 
 
 class BeyondCountError(InputError):
@@ -88,22 +93,3 @@ def sound_frames(frames: Iterable[Molecule]) -> tuple[tuple[Molecule, ...], list
 def left_out(wrong: InputError, sound: int, what: str) -> str:
     """Return the warning that a file is read up to its first broken frame or model."""
     return f"{wrong}; {what} {sound + 1} and all behind it are left out"
-
-
-def _copies(molecule: Molecule, rows: Ints, part: AssemblyPart, made: int) -> list[Molecule]:
-    """Return one moved copy of the rows per operator, ``made`` copies of the same chains being there already."""
-    original = molecule.take(rows)
-    names, name_of_atom = np.unique(original.chain, return_inverse=True)
-    copies = []
-    for number, operator in enumerate(part.operators, start=made + 1):
-        chain = np.char.add(names, f"-{number}" if number > 1 else "")[name_of_atom] if len(rows) else original.chain
-        with np.errstate(over="ignore", invalid="ignore"):  # who draws or measures refuses what is not finite
-            position = transformed(original.position, operator[:, :3]) + operator[:, 3]
-        copies.append(replace(original, position=position, chain=chain))
-    return copies
-
-
-def _joined(molecules: list[Molecule]) -> Molecule:
-    columns = {name: np.concatenate([getattr(molecule, name) for molecule in molecules]) for name in column_names()}
-    bonds = joined([molecule.stated_bonds for molecule in molecules], [len(molecule) for molecule in molecules])
-    return Molecule(name=molecules[0].name, **columns, stated_bonds=bonds)

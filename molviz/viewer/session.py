@@ -314,7 +314,7 @@ def _first_colors(loaded: Loaded, request: DrawRequest, method: str) -> Ints:
     """The colours (n, 3) of all atoms before anything is known of a view: chains that touch have no tints yet."""
     entities = entities_of(loaded.molecule)
     settled = request.options.settled(entities, method == "painter")
-    subject = subject_of(loaded, request, settled)
+    subject = subject_of(loaded, entities, request, settled)
     return subject.colors(settled, np.zeros(len(entities.chain), dtype=np.int64)).fill
 
 

@@ -121,6 +121,9 @@ def _cells(spheres: SphereOccluders, projection: Projection) -> _Cells:
 
 def outlines(spheres: SphereOccluders, projection: Projection) -> tuple[Floats, Floats]:
     """Return centre and half-extent (n, 2) of the bounding box of each sphere's image."""
+    if projection.keeps_circles:
+        center, radius = spheres.spheres
+        return center[:, :2], np.stack([radius, radius], axis=1)
     images = images_of(spheres.horizons(), projection)
     return images.c, images.half_extent()
 

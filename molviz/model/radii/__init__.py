@@ -69,12 +69,12 @@ def radii(molecule: Molecule, table: str = DEFAULT) -> tuple[Floats, tuple[str, 
     if table == OWN:
         return _own(molecule), ()
     loaded = load_table(table)
-    element, tabulated = _elements(molecule), _tabulated(molecule, loaded)
-    needed = np.isnan(molecule.radius)
+    tabulated, own = molecule.by_atom(lambda one: _tabulated(one, loaded)), molecule.radius
+    needed = np.isnan(own)
     guessed = needed & np.isnan(tabulated)
-    radius = np.where(needed, np.where(guessed, GUESS, tabulated), molecule.radius)
-    warnings = _guess_notes(element[guessed], table)
-    if loaded.implicit_hydrogens and (needed & (element == "H")).any():
+    radius = np.where(needed, np.where(guessed, GUESS, tabulated), own)
+    warnings = _guess_notes(molecule.by_atom(_elements)[guessed], table)
+    if loaded.implicit_hydrogens and (needed & molecule.by_atom(lambda one: _elements(one) == "H")).any():
         warnings.append(f"table {table} counts hydrogens within the heavy atoms, yet the molecule has its own as well")
     return radius, tuple(warnings)
 
@@ -83,7 +83,8 @@ def is_known(molecule: Molecule, table: str) -> Bools:
     """Return which atoms (n,) have a radius of their own or in the table, so that none is guessed."""
     if table == OWN:
         return ~np.isnan(molecule.radius)
-    return ~np.isnan(molecule.radius) | ~np.isnan(_tabulated(molecule, load_table(table)))
+    loaded = load_table(table)
+    return molecule.by_atom(lambda one: ~np.isnan(one.radius) | ~np.isnan(_tabulated(one, loaded)))
 
 
 def _elements(molecule: Molecule) -> Strings:

@@ -21,12 +21,12 @@ def mapped(column: Strings, test: Test) -> Bools:
 
 def is_water(molecule: Molecule) -> Bools:
     """Return which atoms (n,) belong to water, by residue name."""
-    return _member(molecule.residue_name, WATERS)
+    return molecule.by_atom(lambda one: _member(one.residue_name, WATERS))
 
 
 def is_hydrogen(molecule: Molecule) -> Bools:
     """Return which atoms (n,) are hydrogen or deuterium."""
-    return _member(molecule.element, frozenset(("H", "D")))
+    return molecule.by_atom(lambda one: _member(one.element, frozenset(("H", "D"))))
 
 
 def _member(column: Strings, names: frozenset[str]) -> Bools:
