@@ -23,7 +23,7 @@ from molviz.model.scenes import random_scene
 from molviz.model.spheres import Spheres
 from molviz.picture.disc_picture import WIDTH, DiscLook
 from molviz.pipeline.hidden_discs import HiddenDiscs, hide_discs, picture_of
-from molviz.write import write
+from molviz.write import pieces
 
 COUNT = 10000
 CORNERS = 64
@@ -51,7 +51,7 @@ def peers() -> None:
     result: dict[str, bytes] = {}
 
     def ours() -> None:
-        result["svg"] = write(picture_of(hide_discs(scene, UNIT_SQUARE), DiscLook()), ".svg")
+        result["svg"] = b"".join(pieces(picture_of(hide_discs(scene, UNIT_SQUARE), DiscLook()), ".svg"))
 
     seconds = timed(ours, 3)
     print(f"N = {COUNT}, depth 10, scene in memory to SVG in memory")
@@ -102,7 +102,7 @@ def occult_lines(scene: Spheres, folder: Path) -> tuple[float, int]:
     order = np.argsort(-scene.center[:, 2], kind="stable")
     back_to_front = Spheres(scene.center[order], scene.radius[order])
     before, after = folder / "before.svg", folder / "after.svg"
-    before.write_bytes(write(overlaid(back_to_front, DiscLook()), ".svg"))
+    before.write_bytes(b"".join(pieces(overlaid(back_to_front, DiscLook()), ".svg")))
     command = [VPYPE or "vpype", "read", str(before), "occult", "write", str(after)]
     seconds = timed(lambda: subprocess.run(command, check=True))
     return seconds, after.stat().st_size

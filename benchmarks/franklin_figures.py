@@ -15,7 +15,7 @@ from molviz.model.spheres import Spheres
 from molviz.picture.disc_picture import DiscLook, disc_picture
 from molviz.picture.picture import Picture
 from molviz.pipeline.hidden_discs import hide_discs, picture_of
-from molviz.write import write
+from molviz.write import pieces
 
 FINE, PLAIN = DiscLook(outline=0.2), DiscLook(outline=0.4)
 
@@ -50,7 +50,7 @@ def main() -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for name, picture in figures().items():
         for suffix in (".svg", ".ps"):
-            data = write(picture, suffix)
+            data = b"".join(pieces(picture, suffix))
             (folder / f"franklin-{name}{suffix}").write_bytes(data)
             print(f"{folder}/franklin-{name}{suffix}  {len(data):,} bytes")
 

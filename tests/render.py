@@ -12,11 +12,19 @@ import pytest
 import resvg_py
 from PIL import Image
 
+from molviz.picture.picture import Picture
+from molviz.write import pieces
+
 CHROMIUM = which("chromium") or which("chromium-browser") or which("google-chrome")
 needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
 needs_poppler = pytest.mark.skipif(which("pdftoppm") is None, reason="poppler (pdftoppm) is not installed")
 needs_ghostscript = pytest.mark.skipif(which("gs") is None, reason="ghostscript (gs) is not installed")
 needs_pdftotext = pytest.mark.skipif(which("pdftotext") is None, reason="poppler (pdftotext) is not installed")
+
+
+def write(picture: Picture, suffix: str) -> bytes:
+    """Return a picture as a whole file."""
+    return b"".join(pieces(picture, suffix))
 
 
 def text_of_pdf(document: bytes) -> str:

@@ -133,10 +133,10 @@ def test_names_of_outputs_come_from_the_inputs(tmp_path: Path) -> None:
 def test_files_have_the_usual_permissions_or_keep_theirs(tmp_path: Path) -> None:
     before = os.umask(0o027)
     try:
-        save(str(tmp_path / "a" / "new.svg"), b"1", make_folder=True)
+        save(str(tmp_path / "a" / "new.svg"), [b"1"], make_folder=True)
         (tmp_path / "old.svg").touch()
         (tmp_path / "old.svg").chmod(0o604)
-        save(str(tmp_path / "old.svg"), b"2")
+        save(str(tmp_path / "old.svg"), [b"2"])
         assert os.umask(0o027) == 0o027
     finally:
         os.umask(before)
@@ -148,7 +148,7 @@ def test_a_failure_while_writing_leaves_nothing(tmp_path: Path) -> None:
     """A folder cannot be replaced by a file."""
     (tmp_path / "x.svg").mkdir()
     with pytest.raises(InputError, match="cannot be written"):
-        save(str(tmp_path / "x.svg"), b"1")
+        save(str(tmp_path / "x.svg"), [b"1"])
     assert [path.name for path in tmp_path.iterdir()] == ["x.svg"] and (tmp_path / "x.svg").is_dir()
 
 

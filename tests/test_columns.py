@@ -37,16 +37,17 @@ def test_blocks_do_not_show(block: int, monkeypatch: pytest.MonkeyPatch) -> None
     many = copies(20)
     ways = [
         lambda: svg_path.path_data(many, 100.0),
-        lambda: postscript_path.shape_texts(many, True),
-        lambda: postscript_path.shape_texts(many, False),
-        lambda: pdf_path.shape_texts(many),
+        lambda: list(postscript_path.shape_texts(many, True)),
+        lambda: list(postscript_path.shape_texts(many, False)),
+        lambda: list(pdf_path.shape_texts(many)),
     ]
     whole = [way() for way in ways]
-    monkeypatch.setattr(columns, "BLOCK", block)
-    assert [way() for way in ways] == whole and all(map(any, whole))
+    for size in ("BLOCK", "STREAMED"):
+        monkeypatch.setattr(columns, size, block)
+        assert [way() for way in ways] == whole and all(map(any, whole))
 
 
 def test_no_loops_have_no_text() -> None:
     none = Paths(paths().arcs.take(np.empty(0, dtype=int)), np.zeros(1, dtype=int), np.zeros(3, dtype=int))
-    assert svg_path.path_data(none, 1.0) == pdf_path.shape_texts(none) == ["", ""]
-    assert postscript_path.shape_texts(none, False) == ["", ""]
+    assert svg_path.path_data(none, 1.0) == list(pdf_path.shape_texts(none)) == ["", ""]
+    assert list(postscript_path.shape_texts(none, False)) == ["", ""]

@@ -30,7 +30,7 @@ from molviz.picture.options import DrawOptions
 from molviz.picture.palette import load_palette
 from molviz.pipeline.draw import DrawRequest, draw_request_from, suffixes
 from molviz.pipeline.inputs import InputOptions, loaded_from
-from molviz.pipeline.outputs import encoded
+from molviz.pipeline.outputs import pieces_of
 from molviz.pipeline.values import (
     input_options_from,
     parse_background,
@@ -234,12 +234,12 @@ def test_the_map_is_verified_where_that_is_asked_for(monkeypatch: pytest.MonkeyP
 @pytest.mark.parametrize("suffix", ["", ".tiff", ".json", "svg"])
 def test_a_picture_has_no_other_formats_than_the_writers(suffix: str) -> None:
     with pytest.raises(InputError, match="no format is called .*expected"):
-        encoded(molviz.draw(CAFFEINE)._picture, suffix)
+        pieces_of(molviz.draw(CAFFEINE)._picture, suffix)
 
 
 def test_the_usual_plotter_is_one() -> None:
     drawing = molviz.draw(CAFFEINE)
-    assert encoded(drawing._pen_picture, ".hpgl") == drawing.to("hpgl")
+    assert b"".join(pieces_of(drawing._pen_picture, ".hpgl")) == drawing.to("hpgl")
 
 
 @pytest.mark.parametrize("suffix", suffixes())

@@ -134,7 +134,7 @@ def test_what_cannot_be_done_is_said(arguments: list[str], code: int, words: str
 
 def test_regions_are_painted_in_front_of_what_they_hide() -> None:
     """Fills without lines, as pixels, against the foremost disc at each pixel's centre."""
-    from molviz.write import write
+    from tests.render import write
 
     scene = random_discs(60, depth=3, radius=None, seed=1, shrink=False, across=None)
     look = DiscLook(Page(width=300, margin=0), outline=0)
@@ -158,7 +158,7 @@ def test_regions_are_painted_in_front_of_what_they_hide() -> None:
 
 @needs_ghostscript
 def test_postscript_draws_the_visible_arcs() -> None:
-    from molviz.write import write
+    from tests.render import write
 
     scene = hide_discs(scene_of([(0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 1.0, 1.0)]))
     picture = picture_of(scene, DiscLook(Page(width=300, margin=10), outline=2))

@@ -14,6 +14,10 @@ from molviz.write.hpgl import Plotter, plotter, write_hpgl
 PLAIN = Plotter("plain", 2, 1020, 1020)  # one point is ten units on a page of 100 × 100: 2 % are margin
 
 
+def whole(page: Picture, device: Plotter) -> bytes:
+    return b"".join(write_hpgl(page, device))
+
+
 def picture(*rows: tuple[tuple[float, float], tuple[float, float], tuple[float, float], float, float]) -> Picture:
     c, u, v = (np.array([row[k] for row in rows], dtype=float).reshape(-1, 2) for k in range(3))
     start, sweep = (np.array([row[k] for row in rows], dtype=float) for k in (3, 4))
@@ -43,7 +47,7 @@ def drawn(hpgl: bytes) -> list[list[tuple[float, float]]]:
 def test_a_circle_is_one_command() -> None:
     page = picture(((50, 50), (10, 0), (0, 10), 0.0, 2 * math.pi))
     radius = 10 * 10.2 * 0.98
-    assert write_hpgl(page, PLAIN) == f"IN;\nSP1;\nPU{510 + radius:.0f},510;PD;AA510,510,360,5;\nPU;SP0;\n".encode()
+    assert whole(page, PLAIN) == f"IN;\nSP1;\nPU{510 + radius:.0f},510;PD;AA510,510,360,5;\nPU;SP0;\n".encode()
 
 
 @pytest.mark.parametrize(
@@ -58,7 +62,7 @@ def test_a_circle_is_one_command() -> None:
 )
 def test_what_is_drawn_follows_the_arc(row: tuple) -> None:
     page = picture(row)
-    (stroke,) = drawn(write_hpgl(page, PLAIN))
+    (stroke,) = drawn(whole(page, PLAIN))
     arcs = page.layers[0].paths.arcs.moved(10.2 * 0.98, np.full(2, 10.2))
     exact = arcs.take(np.zeros(500, dtype=int)).at(row[3] + row[4] * np.linspace(0, 1, 500))
     gap = np.hypot(*(np.array(stroke)[:, None] - exact).transpose(2, 0, 1))
@@ -69,14 +73,14 @@ def test_what_is_drawn_follows_the_arc(row: tuple) -> None:
 def test_layers_take_pens_in_turn() -> None:
     layer = picture(((50, 50), (10, 0), (0, 10), 0.0, 1.0)).layers[0]
     page = Picture(100, 100, (0, 0, 100, 100), [layer, layer, layer])
-    assert re.findall(rb"SP\d", write_hpgl(page, PLAIN)) == [b"SP1", b"SP2", b"SP1", b"SP0"]
+    assert re.findall(rb"SP\d", whole(page, PLAIN)) == [b"SP1", b"SP2", b"SP1", b"SP0"]
 
 
 def test_a_page_fits_the_range_of_every_plotter() -> None:
     page = picture(((50, 50), (50, 0), (0, 50), 0.0, 2 * math.pi))
     for model, paper in [("hp7440a", "a4"), ("hp7475a", "a3"), ("hp7550a", "tabloid")]:
         device = plotter(model, paper)
-        (stroke,) = drawn(write_hpgl(page, device))
+        (stroke,) = drawn(whole(page, device))
         assert np.min(stroke) >= 0 and np.all(np.max(stroke, axis=0) <= (device.width, device.height))
 
 

@@ -49,7 +49,7 @@ def test_a_pipe_is_written_into(tmp_path: Path) -> None:
     os.mkfifo(pipe)
     reader = threading.Thread(target=lambda: got.append(pipe.read_bytes()))
     reader.start()
-    save(str(pipe), b"picture")
+    assert save(str(pipe), [b"pic", b"ture"]) == 7
     reader.join(10)
     assert got == [b"picture"] and pipe.is_fifo() and list(tmp_path.iterdir()) == [pipe]
 

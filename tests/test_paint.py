@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from molviz.picture.picture import Gradient, RadialGradient, offsets_at
-from molviz.write import write
 from molviz.write.paint import border_colors, mixed_color
 from tests.render import (
     needs_chromium,
@@ -20,6 +19,7 @@ from tests.render import (
     seen_by_ghostscript,
     seen_by_poppler,
     seen_by_resvg,
+    write,
 )
 from tests.shaded_pictures import BALL, HEIGHT, PICTURES, SMALL, STICK, WIDTH, balls, page
 

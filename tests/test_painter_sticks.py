@@ -28,8 +28,7 @@ from molviz.visibility.eye import eye_coordinates, projection_of
 from molviz.visibility.painter import Pieces
 from molviz.visibility.scene import Scene, extent
 from molviz.visibility.view import View
-from molviz.write import write
-from tests.render import render_svg
+from tests.render import render_svg, write
 from tests.scenes import pieces_of
 from tests.stick_scenes import ball_and_stick, licorice, parallel_bonds, plain_sticks, seen_solids
 from tests.test_map import safe_points, sampled_face

@@ -5,9 +5,8 @@ import re
 import numpy as np
 import pytest
 
-from molviz.write import write
 from molviz.write.postscript_shade import LINES, procedures, sets_of_steps
-from tests.render import needs_ghostscript, render_ps, seen_by_resvg
+from tests.render import needs_ghostscript, render_ps, seen_by_resvg, write
 from tests.shaded_pictures import HEIGHT, SHADES, STEPS, TONE_COLORS, WIDTH, page, regions, shade
 from tests.write_pictures import inside_ellipse
 

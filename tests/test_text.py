@@ -18,11 +18,11 @@ from hypothesis import strategies as st
 from molviz.cli import main
 from molviz.picture.furniture.metrics import UNITS, text_width
 from molviz.picture.picture import Picture, Text, TextLayer
-from molviz.write import WRITERS, write
+from molviz.write import WRITERS
 from molviz.write.font import FILE, font_of
 from molviz.write.text import plotter_text
 from molviz.write.type42 import type42
-from tests.render import needs_ghostscript, needs_pdftotext, render_ps, text_of_pdf
+from tests.render import needs_ghostscript, needs_pdftotext, render_ps, text_of_pdf, write
 from tests.write_pictures import fills, picture
 
 SVG, DC = "{http://www.w3.org/2000/svg}", "{http://purl.org/dc/elements/1.1/}"

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from molviz.picture.picture import Picture, StrokeLayer
-from molviz.write import WRITERS, write
-from tests.render import needs_ghostscript, render_ps, render_svg
+from molviz.write import WRITERS
+from tests.render import needs_ghostscript, render_ps, render_svg, write
 from tests.write_pictures import COLORS, expected_colors, fills, picture, whole_picture
 
 GOLDEN = Path(__file__).parent / "golden"

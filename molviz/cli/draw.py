@@ -232,10 +232,9 @@ class DrawTask:
     def saved(self, drawing: Drawing | DrawingSet, target: str) -> int:
         """Write all files of a drawing and return how many bytes they have."""
         size = 0
-        for path, data in files_of(drawing, target, self.suffix, self.plotter, self.paper):
+        for path, pieces in files_of(drawing, target, self.suffix, self.plotter, self.paper):
             refuse_inputs(path, self.read)
-            save(path, data, makes_folder(self.output))
-            size += len(data)
+            size += save(path, pieces, makes_folder(self.output))
         return size
 
 
@@ -255,11 +254,11 @@ class Drawn(NamedTuple):
 
 def files_of(
     drawing: Drawing | DrawingSet, target: str, suffix: str, plotter: str, paper: str
-) -> Iterable[tuple[str, bytes]]:
-    """Return the name and the content of each file that is to be written."""
+) -> Iterable[tuple[str, Iterable[bytes]]]:
+    """Return the name and the pieces of each file that is to be written."""
     if isinstance(drawing, DrawingSet):
         return drawing.files(target, suffix, plotter, paper)
-    return [(target, drawing.to(suffix, plotter, paper))]
+    return [(target, drawing.pieces(suffix, plotter, paper))]
 
 
 def _tell(quiet: bool) -> Callable[[Drawn], None]:

@@ -123,11 +123,11 @@ def _discs(target: str | None, scene_of: Callable[[], HiddenDiscs], options: dic
         progress("writing")
         look = _look(options)
         suffix = suffix_of(target, options["to"])
-        data = drawn(scene, suffix, look, options["fill"] == "flat", options["plotter"], options["paper"])
+        pieces = drawn(scene, suffix, look, options["fill"] == "flat", options["plotter"], options["paper"])
+        size = save(target, pieces, makes_folder(options["output"]))
         progress.close()
-        save(target, data, makes_folder(options["output"]))
         if not options["quiet"]:
-            say(_summary(target, scene, len(data), time.monotonic() - began))
+            say(_summary(target, scene, size, time.monotonic() - began))
     if options["as_json"]:
         tell_json(scene.statistics())
     elif not target:

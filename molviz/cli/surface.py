@@ -104,9 +104,9 @@ class SurfaceTask:
             told = f"has {len(surfaces)} models, and a mesh holds one; expected --model NUMBER"
             raise OptionError(told, surfaces[0].source)
         data = surfaces[0].to(suffix_of_mesh(target), self.mesh, self.edge)
-        save(target, data, makes_folder(self.output))
+        size = save(target, [data], makes_folder(self.output))
         if not self.quiet:
-            say(f"{surfaces[0].source} -> {target}: {self.mesh} surface, {len(data)} bytes")
+            say(f"{surfaces[0].source} -> {target}: {self.mesh} surface, {size} bytes")
 
 
 def _tell(surfaces: list[Surface], radii: str, per: str, as_json: bool, as_csv: bool) -> None:

@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import PurePath
@@ -23,7 +23,7 @@ from molviz.picture.palette import load_palette
 from molviz.picture.picture import Color, Picture
 from molviz.picture.style import load_style
 from molviz.pipeline.inputs import WATER_RADIUS, Loaded, refuse_unresolved
-from molviz.pipeline.outputs import encoded, refuse_inputs, save
+from molviz.pipeline.outputs import pieces_of, refuse_inputs, save
 from molviz.pipeline.solids import SolidOptions, shown, solid_options_from, solids_for
 from molviz.pipeline.units import in_unit, solids_in_unit, unit_of, view_in_unit
 from molviz.pipeline.values import (
@@ -137,14 +137,18 @@ class Drawing:
         ``plotter`` and ``paper`` matter to ``"hpgl"`` alone. Raises InputError for a format that nobody knows, and
         for one that painting over (``method="painter"``) does not give.
         """
+        return b"".join(self.pieces(format, plotter, paper))
+
+    def pieces(self, format: str, plotter: str = "", paper: str = "") -> Iterable[bytes]:
+        """Return the same in pieces that are made one by one, for drawings that are large; raises as ``to`` does."""
         suffix = f".{str(format).removeprefix('.')}".lower()
         if suffix not in suffixes():
             raise InputError(f"format: {format!r}; expected one of {' '.join(suffixes())}")
         if isinstance(self._seen, Pieces) and suffix in NOT_PAINTED:
             raise InputError(f"painting over gives no {suffix}; expected method visible", self._loaded.source)
         if suffix == JSON:
-            return self._map_as_json()
-        return encoded(self.picture(suffix), suffix, plotter, paper)
+            return [self._map_as_json()]
+        return pieces_of(self.picture(suffix), suffix, plotter, paper)
 
     def save(self, path: str | os.PathLike[str], plotter: str = "", paper: str = "") -> None:
         """Write the drawing in the format that the suffix of the path names; the file appears whole or not at all.
@@ -155,7 +159,7 @@ class Drawing:
         if suffix.lower() not in suffixes():
             raise InputError(f"path: no format {suffix!r}; expected one of {' '.join(suffixes())}")
         refuse_inputs(os.fspath(path), [self.source])
-        save(os.fspath(path), self.to(suffix, plotter, paper))
+        save(os.fspath(path), self.pieces(suffix, plotter, paper))
 
     def picture(self, suffix: str) -> Picture:
         """Return the drawing as layers on a page, as the format of a suffix can show them."""

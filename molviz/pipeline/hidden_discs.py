@@ -3,6 +3,7 @@
 import json
 import math
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -30,7 +31,7 @@ from molviz.model.spheres import Spheres
 from molviz.picture.disc_picture import DiscLook, disc_picture
 from molviz.picture.picture import Picture
 from molviz.pipeline.inputs import Loaded
-from molviz.pipeline.outputs import encoded
+from molviz.pipeline.outputs import pieces_of
 from molviz.pipeline.views import ViewOptions, view_of
 from molviz.rounding import ANGLE_DIGITS, rounded, significant
 
@@ -152,11 +153,13 @@ def picture_of(scene: HiddenDiscs, look: DiscLook, fill: bool = False) -> Pictur
     return disc_picture(scene.spheres, scene.arcs, regions_of(scene) if fill else None, look)
 
 
-def drawn(scene: HiddenDiscs, suffix: str, look: DiscLook, fill: bool, plotter: str = "", paper: str = "") -> bytes:
-    """Return the scene as a file of the format that a suffix names."""
+def drawn(
+    scene: HiddenDiscs, suffix: str, look: DiscLook, fill: bool, plotter: str = "", paper: str = ""
+) -> Iterable[bytes]:
+    """Return the pieces of the scene as a file of the format that a suffix names."""
     if suffix == ".json":
-        return to_json(scene)
-    return encoded(picture_of(scene, look, fill), suffix, plotter, paper)
+        return [to_json(scene)]
+    return pieces_of(picture_of(scene, look, fill), suffix, plotter, paper)
 
 
 def to_json(scene: HiddenDiscs) -> bytes:

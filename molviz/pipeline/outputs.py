@@ -8,10 +8,11 @@ import sys
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path, PurePath
+from typing import BinaryIO
 
 from molviz.errors import InputError, OptionError
 from molviz.picture.picture import Picture
-from molviz.write import WRITERS, write
+from molviz.write import WRITERS, pieces
 
 STEM, NUMBER = PATTERNS = ("{stem}", "{n}")  # in the name of an output: the input's name, the picture's number
 STANDARD = {"stdin": 0, "stdout": 1, "stderr": 2}
@@ -20,8 +21,8 @@ DESCRIPTOR = re.compile(r"(?:/dev/fd|/proc/self/fd)/([0-9]{1,9})|/dev/(stdin|std
 MOST_LINKS = 40  # of a chain, as in Linux; a longer one is a circle
 
 
-def encoded(picture: Picture, suffix: str, plotter: str = "", paper: str = "") -> bytes:
-    """Return the picture in the format of a suffix; a plotter and its paper matter to ``".hpgl"`` alone.
+def pieces_of(picture: Picture, suffix: str, plotter: str = "", paper: str = "") -> Iterable[bytes]:
+    """Return the pieces of the picture in the format of a suffix; a plotter and its paper matter to ``".hpgl"`` alone.
 
     Raises InputError for a suffix, plotter or paper that nobody knows.
     """
@@ -31,7 +32,7 @@ def encoded(picture: Picture, suffix: str, plotter: str = "", paper: str = "") -
         return hpgl.write_hpgl(picture, hpgl.plotter(plotter, paper))
     if suffix not in WRITERS:
         raise InputError(f"no format is called {suffix!r}; expected .json or one of {', '.join(WRITERS)}")
-    return write(picture, suffix)
+    return pieces(picture, suffix)
 
 
 def stem_of(source: str) -> str:
@@ -70,8 +71,8 @@ def makes_folder(output: str) -> bool:
     return output.endswith("/") or any(part in output for part in PATTERNS)
 
 
-def save(target: str, data: bytes, make_folder: bool = False) -> None:
-    """Write a file beside its target and rename it, or write to standard output for ``-``.
+def save(target: str, data: Iterable[bytes], make_folder: bool = False) -> int:
+    """Write a file beside its target and rename it, or write to standard output for ``-``; return how many bytes.
 
     A symbolic link stays one, and what it names is written; a pipe, a device or a descriptor (``/dev/stdout``) is
     written into. An existing file is untouched when anything fails; raises InputError naming the target then.
@@ -79,17 +80,16 @@ def save(target: str, data: bytes, make_folder: bool = False) -> None:
     try:
         descriptor = STANDARD_OUTPUT if target == "-" else _descriptor(target)
         if descriptor is not None:
-            _print(data, descriptor)
-            return
+            return _print(data, descriptor)
         path = Path(os.path.realpath(target))
         if path.is_symlink():
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
         if path.exists() and not path.is_file() and not path.is_dir():
-            path.write_bytes(data)
-            return
+            with path.open("wb") as file:
+                return _written(data, file)
         if make_folder:
             path.parent.mkdir(parents=True, exist_ok=True)
-        _replace(path, data)
+        return _replace(path, data)
     except BrokenPipeError:
         raise  # the reader has enough: no error to tell
     except FileNotFoundError:
@@ -110,27 +110,32 @@ def _descriptor(target: str) -> int | None:
     return None
 
 
-def _print(data: bytes, descriptor: int) -> None:
+def _written(data: Iterable[bytes], file: BinaryIO) -> int:
+    return sum(file.write(piece) for piece in data)
+
+
+def _print(data: Iterable[bytes], descriptor: int) -> int:
     if descriptor != STANDARD_OUTPUT:
         with os.fdopen(os.dup(descriptor), "wb") as file:
-            file.write(data)
-        return
+            return _written(data, file)
     if sys.stdout is None:
         raise OSError(errno.EBADF, "standard output is closed")
-    sys.stdout.buffer.write(data)
+    size = _written(data, sys.stdout.buffer)
     sys.stdout.buffer.flush()
+    return size
 
 
-def _replace(path: Path, data: bytes) -> None:
+def _replace(path: Path, data: Iterable[bytes]) -> int:
     handle, beside = tempfile.mkstemp(prefix=f".{path.name[:100]}.", dir=path.parent)
     try:
         with os.fdopen(handle, "wb") as file:
-            file.write(data)
+            size = _written(data, file)
         Path(beside).chmod(path.stat().st_mode if path.exists() else 0o666 & ~_umask())
         Path(beside).replace(path)
     except BaseException:
         Path(beside).unlink(missing_ok=True)
         raise
+    return size
 
 
 def _umask() -> int:

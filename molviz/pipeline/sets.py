@@ -1,7 +1,7 @@
 """Sets of pictures: a turntable, the frames of a trajectory, the two views of a stereo pair, all framed alike."""
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from pathlib import PurePath
@@ -16,7 +16,7 @@ from molviz.picture.picture import Picture
 from molviz.picture.stereo import beside, page_of_half
 from molviz.pipeline.draw import JSON, Drawing, DrawRequest, drawing_of, drawings_of, suffixes
 from molviz.pipeline.inputs import Loaded, means_several
-from molviz.pipeline.outputs import NUMBER, encoded, makes_folder, refuse_inputs, save
+from molviz.pipeline.outputs import NUMBER, makes_folder, pieces_of, refuse_inputs, save
 from molviz.pipeline.solids import shown
 from molviz.pipeline.units import unit_of
 from molviz.pipeline.values import Options, chosen, given, parse_count
@@ -100,6 +100,10 @@ class DrawingSet:
         A set of one picture has the formats of a ``Drawing``. Raises InputError for a format that nobody knows or that
         cannot hold so many.
         """
+        return b"".join(self.pieces(format, plotter, paper))
+
+    def pieces(self, format: str, plotter: str = "", paper: str = "") -> Iterable[bytes]:
+        """Return the same in pieces that are made one by one; raises as ``to`` does."""
         suffix = _known(f".{str(format).removeprefix('.')}")
         if len(self) == 1:
             return self._one(0, suffix, plotter, paper)
@@ -117,22 +121,24 @@ class DrawingSet:
             refuse_inputs(target, [self._views[0][0].source])
             save(target, data, made)
 
-    def files(self, path: str, format: str, plotter: str = "", paper: str = "") -> Iterator[tuple[str, bytes]]:
+    def files(
+        self, path: str, format: str, plotter: str = "", paper: str = ""
+    ) -> Iterator[tuple[str, Iterable[bytes]]]:
         """Yield the name and the content of each file that ``path`` means; raises InputError as ``to`` does."""
         if NUMBER not in path:
-            yield path, self.to(format, plotter, paper)
+            yield path, self.pieces(format, plotter, paper)
             return
         suffix, digits = _known(format), len(str(max(self.numbers)))
         for row, number in enumerate(self.numbers):
             yield path.replace(NUMBER, str(number).zfill(digits)), self._one(row, suffix, plotter, paper)
 
-    def _one(self, row: int, suffix: str, plotter: str, paper: str) -> bytes:
+    def _one(self, row: int, suffix: str, plotter: str, paper: str) -> Iterable[bytes]:
         views = self._views[row]
         if len(views) == 1:
-            return views[0].to(suffix, plotter, paper)
+            return views[0].pieces(suffix, plotter, paper)
         if suffix == JSON:
             raise InputError("a stereo pair has two maps; expected a format for pictures")
-        return encoded(self._picture(row, suffix), suffix, plotter, paper)
+        return pieces_of(self._picture(row, suffix), suffix, plotter, paper)
 
     def _picture(self, row: int, suffix: str) -> Picture:
         return reduce(beside, (drawing.picture(suffix) for drawing in self._views[row]))

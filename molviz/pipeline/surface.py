@@ -128,7 +128,7 @@ class Surface:
         """
         suffix = suffix_of_mesh(os.fspath(path))
         refuse_inputs(os.fspath(path), [self.source])
-        save(os.fspath(path), self.to(suffix, mesh, edge))
+        save(os.fspath(path), [self.to(suffix, mesh, edge)])
 
     def accessible(self) -> Floats:
         """Return the area (n,) in Å² of each enlarged ball on the boundary."""

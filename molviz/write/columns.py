@@ -3,7 +3,7 @@
 A row of words is one piece of text, such as a command with its numbers; all rows without their zeros are the text.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import NamedTuple
 
@@ -14,6 +14,7 @@ from molviz.curves import Paths
 from molviz.threads import in_threads
 
 BLOCK = 8192  # arcs formatted at a time: what is in between stays in the cache
+STREAMED = 32 * BLOCK  # arcs whose text is kept at a time
 GROUP = 10_000  # of four digits, which are one word
 BYTES = 4  # of a word
 MINUS, SPACE = 1, 2  # what stands before a number, as rows of a table
@@ -31,15 +32,27 @@ class Formatted(NamedTuple):
         return [self.text[first:stop] for first, stop in zip(at, at[1:], strict=False)]
 
 
+def texts_of_shapes(paths: Paths, write: Callable[[Paths], Formatted]) -> Iterator[str]:
+    """Yield what ``write`` makes of each shape: some blocks at a time, so that the text of all is never kept."""
+    for first, stop in _cuts(paths.loop_start[paths.shape_start], STREAMED):
+        some = _shapes(paths, first, stop)
+        yield from formatted(some, write).pieces(some.shape_start)
+
+
 def formatted(paths: Paths, write: Callable[[Paths], Formatted]) -> Formatted:
     """Return what ``write`` makes of the paths, which are given to it in blocks of whole loops, each one shape."""
-    loops, arcs = len(paths.loop_start) - 1, len(paths.arcs.start)
-    at = np.searchsorted(paths.loop_start, np.arange(0, arcs + BLOCK, BLOCK)).clip(0, loops)
-    cuts = distinct(np.concatenate([[0], at, [loops]]))
-    parts = in_threads(lambda cut: write(_loops(paths, *cut)), zip(cuts, cuts[1:], strict=False))
+    parts = in_threads(lambda cut: write(_loops(paths, *cut)), _cuts(paths.loop_start, BLOCK))
     before = np.cumsum([0, *(len(part.text) for part in parts)])
     stops = [part.stop + shift for part, shift in zip(parts, before, strict=False)]
     return Formatted("".join(part.text for part in parts), np.concatenate([np.empty(0, dtype=np.int64), *stops]))
+
+
+def _cuts(start: Ints, size: int) -> Iterator[tuple[int, int]]:
+    """Cut items that begin and end at ``start`` (k + 1,) into runs that are about so long."""
+    count, total = len(start) - 1, int(start[-1])
+    at = np.searchsorted(start, np.arange(0, total + size, size)).clip(0, count)
+    cuts = distinct(np.concatenate([[0], at, [count]])).tolist()
+    return zip(cuts, cuts[1:], strict=False)
 
 
 def _loops(paths: Paths, first: int, stop: int) -> Paths:
@@ -47,6 +60,12 @@ def _loops(paths: Paths, first: int, stop: int) -> Paths:
     start = paths.loop_start[first : stop + 1]
     arcs = type(paths.arcs)(*(column[start[0] : start[-1]] for column in paths.arcs))
     return Paths(arcs, start - start[0], np.arange(len(start)))
+
+
+def _shapes(paths: Paths, first: int, stop: int) -> Paths:
+    """Some shapes of the paths."""
+    start = paths.shape_start[first : stop + 1]
+    return _loops(paths, start[0], start[-1])._replace(shape_start=start - start[0])
 
 
 @cache

@@ -5,6 +5,7 @@ lettered by the plotter itself (``LB``), in ASCII: accents are dropped, Greek le
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -21,7 +22,7 @@ from molviz.picture.picture import Picture, StrokeLayer, Text, TextLayer
 from molviz.vectors import cross
 from molviz.write.font import left
 from molviz.write.pen_travel import drawing_order
-from molviz.write.text import plotter_text
+from molviz.write.text import encoded_lines, plotter_text
 
 CHORD_ERROR = 0.5  # plotter units between a curve and its chords: no plotter resolves less
 ROUND = 1e-9  # relative difference of an ellipse's half-diameters that still counts as a circle
@@ -54,8 +55,8 @@ def plotter(model: str = "", paper: str = "") -> Plotter:
     return Plotter(row["name"], row["pens"], width, height)
 
 
-def write_hpgl(picture: Picture, device: Plotter | None = None) -> bytes:
-    """Return the picture's strokes as HPGL, as large as fits the plotter's range."""
+def write_hpgl(picture: Picture, device: Plotter | None = None) -> Iterator[bytes]:
+    """Yield the picture's strokes as HPGL, as large as fits the plotter's range."""
     device = device or plotter()
     layers = [layer for layer in picture.layers if isinstance(layer, StrokeLayer | TextLayer)]
     commands = ["IN;"]
@@ -66,7 +67,7 @@ def write_hpgl(picture: Picture, device: Plotter | None = None) -> bytes:
             commands += [_lettered(text, scale, shift) for text in layer.texts]
         else:
             commands += _strokes(layer.paths._replace(arcs=layer.paths.arcs.moved(scale, shift)))
-    return "\n".join([*commands, "PU;SP0;", ""]).encode("ascii")
+    yield from encoded_lines([*commands, "PU;SP0;"])
 
 
 @cache

@@ -30,13 +30,13 @@ from molviz.write.text import clean, number
 STRUCTURE = re.compile("trailer|xref|obj|stream|%%EOF")
 
 
-def write_pdf(picture: Picture) -> bytes:
-    """Return the picture as PDF 1.7, one page of its own size; no dates and no identifier."""
+def write_pdf(picture: Picture) -> Iterator[bytes]:
+    """Yield the picture as PDF 1.7, one page of its own size; no dates and no identifier."""
     return write_pdf_pages([picture])
 
 
-def write_pdf_pages(pictures: Sequence[Picture]) -> bytes:
-    """Return one page for each picture, with one font and one set of layers for all; named as the first."""
+def write_pdf_pages(pictures: Sequence[Picture]) -> Iterator[bytes]:
+    """Yield one page for each picture, with one font and one set of layers for all; named as the first."""
     pdf, out, first = pydyf.PDF(), BytesIO(), pictures[0]
     pdf.info.update({"Title": text_string(first.title), "Producer": pydyf.String("molviz")})
     if first.description:
@@ -56,7 +56,7 @@ def write_pdf_pages(pictures: Sequence[Picture]) -> bytes:
     for picture, layers in zip(pictures, named, strict=True):
         add_page(pdf, picture, [groups[layer] for layer in layers], font)
     pdf.write(out)
-    return out.getvalue()
+    yield out.getvalue()
 
 
 def layer_names(picture: Picture) -> list[tuple[str, int]]:
@@ -162,7 +162,8 @@ def stacked(layer: StackedLayer, names: Resources) -> Iterator[str]:
         elif shape:
             border = borders[row] if fills.spread else None
             yield f"{width} w {shaded(shape, fill, places[row], border, names)}"
-        yield from (f"{command} {shapes[row]} S" for command, shapes in strokes if shapes[row])
+        stroked = [(command, next(shapes)) for command, shapes in strokes]
+        yield from (f"{command} {line} S" for command, line in stroked if line)
 
 
 def filled(layer: FillLayer, names: Resources) -> Iterator[str]:

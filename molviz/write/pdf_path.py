@@ -1,10 +1,12 @@
 """Paths as PDF: arcs as cubic Béziers within a thousandth of a point."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from molviz.arrays import Bools, Words
 from molviz.curves import Paths
-from molviz.write.columns import Formatted, formatted, in_loops, spaced_rows, word
+from molviz.write.columns import Formatted, in_loops, spaced_rows, texts_of_shapes, word
 from molviz.write.ellipse import (
     bezier_handles,
     bezier_pieces,
@@ -18,9 +20,9 @@ from molviz.write.ellipse import (
 PLACES = 3
 
 
-def shape_texts(paths: Paths) -> list[str]:
-    """Return the operators of each shape, without the end of the last line."""
-    return [text.removesuffix("\n") for text in formatted(paths, loop_texts).pieces(paths.shape_start)]
+def shape_texts(paths: Paths) -> Iterator[str]:
+    """Yield the operators of each shape, without the end of the last line."""
+    return (text.removesuffix("\n") for text in texts_of_shapes(paths, loop_texts))
 
 
 def loop_texts(paths: Paths) -> Formatted:

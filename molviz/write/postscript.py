@@ -23,7 +23,7 @@ from molviz.write.font import characters, font_of, left, pieces
 from molviz.write.paint import FLATNESS, border_colors, gradients, mixed_color, opaque, origins, shading
 from molviz.write.postscript_path import shape_texts
 from molviz.write.postscript_shade import SHADE_PROCEDURES, shade_lines
-from molviz.write.text import ascii_line, number
+from molviz.write.text import ascii_line, encoded_lines, number
 from molviz.write.type42 import Type42, type42
 
 Names: TypeAlias = dict[Gradient, str]
@@ -60,24 +60,29 @@ GRADIENT_PROCEDURES = r"""/k{gsave stroke grestore}bind def
 /g{clip newpath translate shfill grestore}bind def"""
 
 
-def write_postscript(picture: Picture) -> bytes:
-    """Return the picture as a PostScript page of its own size (DSC 3.0, level 2)."""
+def write_postscript(picture: Picture) -> Iterator[bytes]:
+    """Yield the picture as a PostScript page of its own size (DSC 3.0, level 2)."""
     return write_postscript_pages([picture])
 
 
-def write_postscript_pages(pictures: Sequence[Picture]) -> bytes:
-    """Return a PostScript page for each picture, all of the size of the first."""
+def write_postscript_pages(pictures: Sequence[Picture]) -> Iterator[bytes]:
+    """Yield a PostScript page for each picture, all of the size of the first."""
     size = f"{number(pictures[0].width)} {number(pictures[0].height)}"
     return document(pictures, "%!PS-Adobe-3.0", [f"<</PageSize[{size}]>>setpagedevice"])
 
 
-def write_eps(picture: Picture) -> bytes:
-    """Return the picture as Encapsulated PostScript (EPSF 3.0), cut to what is painted."""
+def write_eps(picture: Picture) -> Iterator[bytes]:
+    """Yield the picture as Encapsulated PostScript (EPSF 3.0), cut to what is painted."""
     return document([picture], "%!PS-Adobe-3.0 EPSF-3.0", [])
 
 
-def document(pictures: Sequence[Picture], header: str, setup: list[str]) -> bytes:
-    """Return the whole document; ``setup`` are lines to be run before the pages."""
+def document(pictures: Sequence[Picture], header: str, setup: list[str]) -> Iterator[bytes]:
+    """Yield the whole document; ``setup`` are lines to be run before the pages."""
+    return encoded_lines(document_lines(pictures, header, setup))
+
+
+def document_lines(pictures: Sequence[Picture], header: str, setup: list[str]) -> Iterator[str]:
+    """Yield the lines of the document."""
     wanted = frozenset[str]().union(*map(characters, pictures))
     font = type42(font_of(wanted)) if wanted else None
     setup = [*(font.lines if font else []), *setup]
@@ -86,12 +91,14 @@ def document(pictures: Sequence[Picture], header: str, setup: list[str]) -> byte
     layers = [layer for picture in pictures for layer in picture.layers]
     names = {gradient: f"S{row}" for row, gradient in enumerate(gradients(layers))}
     prolog = [PROLOG, *definitions(layers, names), "end", "%%EndProlog"]
-    lines = [header, *comments(pictures, 3 if names else 2), *prolog, *setup]
+    yield from (header, *comments(pictures, 3 if names else 2), *prolog, *setup)
     for number_of_page, picture in enumerate(pictures, start=1):
-        lines += [f"%%Page: {number_of_page} {number_of_page}"]
-        lines += [f"molviz begin gsave 1 setlinecap 1 setlinejoin {FLATNESS} setflat R newpath", *background(picture)]
-        lines += [*body(picture, names, font), "grestore end", "showpage"]
-    return ("\n".join([*lines, "%%Trailer", "%%EOF"]) + "\n").encode("ascii")
+        yield f"%%Page: {number_of_page} {number_of_page}"
+        yield f"molviz begin gsave 1 setlinecap 1 setlinejoin {FLATNESS} setflat R newpath"
+        yield from background(picture)
+        yield from body(picture, names, font)
+        yield from ("grestore end", "showpage")
+    yield from ("%%Trailer", "%%EOF")
 
 
 def on_paper(picture: Picture) -> Picture:
@@ -193,8 +200,9 @@ def stacked(layer: StackedLayer, names: Names) -> Iterator[str]:
             border = borders[shape] if spread else None
             yield from shaded(path, border, f"{names[paint]} {place_text(places[shape])}")
         for command, texts in strokes:
-            if texts[shape]:
-                yield from (command, texts[shape])
+            text = next(texts)
+            if text:
+                yield from (command, text)
 
 
 def stroked(layer: StrokeLayer) -> Iterator[str]:

@@ -1,12 +1,13 @@
 """Paths as PostScript: true arcs, one line of text per arc."""
 
+from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
 
 from molviz.arrays import Bools, Words
 from molviz.curves import Paths, PlaneArcs
-from molviz.write.columns import Formatted, formatted, in_loops, spaced_rows, word, words
+from molviz.write.columns import Formatted, in_loops, spaced_rows, texts_of_shapes, word, words
 from molviz.write.ellipse import (
     THIN,
     bezier_handles,
@@ -21,10 +22,10 @@ PLACES = 2
 LARGEST = 500.0  # points, half-axis of arcs written as such: half a hundredth of a degree is 0.04 points there
 
 
-def shape_texts(paths: Paths, filled: bool) -> list[str]:
-    """Return the lines of each shape, without the last one's end; every loop is stroked unless it is ``filled``."""
+def shape_texts(paths: Paths, filled: bool) -> Iterator[str]:
+    """Yield the lines of each shape, without the last one's end; every loop is stroked unless it is ``filled``."""
     write = partial(loop_texts, filled=filled)
-    return [text.removesuffix("\n") for text in formatted(paths, write).pieces(paths.shape_start)]
+    return (text.removesuffix("\n") for text in texts_of_shapes(paths, write))
 
 
 def loop_texts(paths: Paths, filled: bool) -> Formatted:

@@ -2,7 +2,7 @@
 
 import hashlib
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
@@ -42,8 +42,8 @@ OWN = "\x01"  # begins names that only the file itself calls; no text can hold i
 OFTEN = 4  # shapes of one colour from which on a class is shorter than the colour itself
 
 
-def write_svg(picture: Picture) -> bytes:
-    """Return the picture as SVG 1.1 in UTF-8; lengths in points."""
+def write_svg(picture: Picture) -> Iterator[bytes]:
+    """Yield the picture as SVG 1.1 in UTF-8; lengths in points."""
     drawing = empty_drawing(picture)
     elements = Elements(drawing)
     for layer in picture.layers:
@@ -62,17 +62,21 @@ def empty_drawing(picture: Picture) -> Drawing:
     return drawing
 
 
-def finished(drawing: Drawing, elements: "Elements", more: str = "") -> bytes:
-    """Return the file; its style sheet has the rules of the elements, and ``more``.
+def finished(drawing: Drawing, elements: "Elements", more: str = "") -> Iterator[bytes]:
+    """Yield the file; its style sheet has the rules of the elements, and ``more``.
 
     Letters made of its content set its own names apart from those of other drawings in one web page.
     """
     if elements.rules or more:
         drawing.defs.add(Style("".join(f".{name}{{{rule}}}" for rule, name in elements.rules.items()) + more))
-    text = f'<?xml version="1.0" encoding="utf-8"?>\n{elements.leaves.put_into(drawing.tostring())}\n'
-    drawn = text[text.index("<defs") :]  # and not what drew it
-    letters = "".join(chr(ord("a") + int(digit, 16)) for digit in hashlib.sha256(drawn.encode()).hexdigest()[:4])
-    return text.replace(OWN, letters).encode()
+    head, defs, drawn = drawing.tostring().partition("<defs")
+    content = hashlib.sha256()  # and not of what drew it
+    for piece in elements.leaves.put_into(defs + drawn + "\n"):
+        content.update(piece.encode())
+    letters = "".join(chr(ord("a") + int(digit, 16)) for digit in content.hexdigest()[:4])
+    yield f'<?xml version="1.0" encoding="utf-8"?>\n{head}'.replace(OWN, letters).encode()
+    for piece in elements.leaves.put_into(defs + drawn + "\n"):
+        yield piece.replace(OWN, letters).encode()
 
 
 def describe(drawing: Drawing, picture: Picture) -> None:
@@ -91,8 +95,8 @@ def describe(drawing: Drawing, picture: Picture) -> None:
         drawing.set_metadata(data)
 
 
-def write_svgz(picture: Picture) -> bytes:
-    """Return the picture as gzipped SVG, without a date."""
+def write_svgz(picture: Picture) -> Iterator[bytes]:
+    """Yield the picture as gzipped SVG, without a date."""
     return gzipped(write_svg(picture))
 
 

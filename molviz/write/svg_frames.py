@@ -1,7 +1,7 @@
 """One SVG that shows several pictures in turn, by CSS alone; the first for readers who want nothing to move."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from svgwrite.container import Group
 
@@ -15,8 +15,8 @@ SHORTEST_LOOP = 3000  # milliseconds for all pictures, where they are few
 FRAME = f"{OWN}-frame"  # class of the pictures
 
 
-def write_animated(pictures: Sequence[Picture]) -> bytes:
-    """Return pictures of one size as one SVG in UTF-8; described as the first, which shows where nothing is animated.
+def write_animated(pictures: Sequence[Picture]) -> Iterator[bytes]:
+    """Yield pictures of one size as one SVG in UTF-8; described as the first, which shows where nothing is animated.
 
     A picture is a group that is visible for its share of the loop. Ids are unique across all pictures.
     """
@@ -34,8 +34,8 @@ def write_animated(pictures: Sequence[Picture]) -> bytes:
     return finished(drawing, elements, in_turn(len(pictures), time))
 
 
-def write_animated_svgz(pictures: Sequence[Picture]) -> bytes:
-    """Return the same gzipped, without a date."""
+def write_animated_svgz(pictures: Sequence[Picture]) -> Iterator[bytes]:
+    """Yield the same gzipped, without a date."""
     return gzipped(write_animated(pictures))
 
 

@@ -1,12 +1,14 @@
 """Elements of SVG as text below the groups that svgwrite builds, which takes ten times as long for each."""
 
 import re
+from collections.abc import Iterator
+from itertools import chain
 from typing import Any
 from xml.etree.ElementTree import ProcessingInstruction
 
 from svgwrite.base import BaseElement
 
-from molviz.write.text import clean
+from molviz.write.text import batches, clean
 
 PLACE = re.compile(r"<\?leaves (\d+)\?>")
 
@@ -37,11 +39,11 @@ class Leaves:
             self.runs.append(group.add(Run(len(self.runs))))
         group.elements[-1].texts.append(text)
 
-    def put_into(self, document: str) -> str:
-        """Return the document with all elements in their places."""
+    def put_into(self, document: str) -> Iterator[str]:
+        """Yield the document with all elements in their places, some thousands of pieces at a time."""
         parts = PLACE.split(document)
-        parts[1::2] = ["".join(self.runs[int(number)].texts) for number in parts[1::2]]
-        return "".join(parts)
+        texts = (self.runs[int(part)].texts if row % 2 else [part] for row, part in enumerate(parts))
+        return map("".join, batches(chain.from_iterable(texts)))
 
 
 def element(name: str, attributes: dict[str, str], content: str = "") -> str:

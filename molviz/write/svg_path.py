@@ -6,7 +6,16 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints, Words
 from molviz.curves import Paths, PlaneArcs
-from molviz.write.columns import Formatted, beside_each_other, formatted, in_loops, number_words, steps_of, word, words
+from molviz.write.columns import (
+    Formatted,
+    beside_each_other,
+    in_loops,
+    number_words,
+    steps_of,
+    texts_of_shapes,
+    word,
+    words,
+)
 from molviz.write.ellipse import (
     AxisArcs,
     closed_loops,
@@ -196,4 +205,4 @@ def path_data(paths: Paths, height: float) -> list[str]:
         block, _, command = settled(block._replace(arcs=y_down(block.arcs, height)))
         return loop_texts(block, command)
 
-    return formatted(paths, write).pieces(paths.shape_start)
+    return list(texts_of_shapes(paths, write))

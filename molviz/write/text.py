@@ -2,10 +2,13 @@
 
 import re
 import unicodedata
+from collections.abc import Iterable, Iterator
 from functools import cache
+from itertools import islice
 
 PLAIN = {"′": "'", "″": "''", "’": "'", "‘": "'", "“": '"', "”": '"', "–": "-", "—": "-", "−": "-", "×": "x", "·": "."}
 NOT_A_NAME, NAME_START = re.compile("[^A-Za-z0-9_.-]"), re.compile("[A-Za-z_]")
+BATCH = 4096
 NOT_XML = "[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
 
@@ -16,6 +19,17 @@ def number(value: float, places: int = 2) -> str:
     if text.startswith("0."):
         return text[1:]
     return "-" + text[2:] if text.startswith("-0.") else "0" if text == "-0" else text
+
+
+def encoded_lines(lines: Iterable[str]) -> Iterator[bytes]:
+    """Yield lines of ASCII, some thousands at a time."""
+    return (("\n".join(several) + "\n").encode("ascii") for several in batches(lines))
+
+
+def batches(texts: Iterable[str]) -> Iterator[list[str]]:
+    """Yield some thousands of texts at a time."""
+    rest = iter(texts)
+    return iter(lambda: list(islice(rest, BATCH)), [])
 
 
 def clean(text: str) -> str:
