@@ -5,7 +5,6 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from molviz.geometry import measure as measure_module
 from molviz.geometry.boundary import union_boundary
 from molviz.geometry.measure import measure_spheres
 from molviz.model.spheres import Spheres
@@ -237,17 +236,3 @@ def test_gradients_are_those_of_finite_differences(seed: int, count: int) -> Non
     size = 1e-5 * (1 + np.abs(measure.area_gradient).max())
     assert abs((ahead.area.sum() - behind.area.sum()) / 2 - np.sum(measure.area_gradient * step)) < 1e-4 * size
     assert abs((ahead.volume - behind.volume) / 2 - np.sum(measure.volume_gradient * step)) < 1e-4 * size
-
-
-@given(st.integers(0, 10**6), st.integers(0, 40), st.integers(1, 9))
-@settings(max_examples=40)
-def test_slabs_measure_the_same_to_the_last_bit(seed: int, doubled: int, slab: int) -> None:
-    spheres = varied_spheres(seed)
-    again = np.random.default_rng(seed).integers(0, len(spheres.radius), doubled)
-    spheres = spheres.take(np.append(np.arange(len(spheres.radius)), again))
-    whole = measure_spheres(spheres)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(measure_module, "SLAB_BALLS", slab)
-        parts = measure_spheres(spheres)
-    for one, other in zip(whole, parts, strict=True):
-        assert np.array_equal(one, other)

@@ -11,7 +11,6 @@ sphere its own pole and needs J1 and J2 only: ``V = ⅓ Σ (r_i A_i + c_i · N_i
 two normals at a crease and ν the direction on sphere i into the cap, ``∂A/∂c_i = −Σ ∫ (n tan(β / 2) + ν) dl``.
 """
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -20,12 +19,10 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.geometry.boundary import BLOCK_PAIRS, Boundary, free_spheres, union_boundary
 from molviz.geometry.rims import Rims, opposite_poles, rims_of, totals, twice_j1, unit_flux
 from molviz.geometry.rows import blocks, expand
+from molviz.geometry.slabs import slabs
 from molviz.model.spheres import Spheres
 from molviz.threads import in_threads
 from molviz.vectors import dot, length
-
-SLAB_BALLS = 1 << 18  # balls that are measured at a time, besides those that they can meet
-ROOM = 1.001  # of the distance at which two balls can meet, for rounding
 
 
 class Measure(NamedTuple):
@@ -49,31 +46,11 @@ def measure_spheres(spheres: Spheres) -> Measure:
     """
     count = len(spheres.radius)
     area, flux, gradient = np.zeros(count), np.zeros((count, 3)), np.zeros((count, 3))
-    for rows, own in _slabs(spheres):
+    for rows, own in slabs(spheres):
         found = _of_boundary(union_boundary(spheres.take(rows)))
         for total, part in zip((area, flux, gradient), found, strict=True):
             total[rows[own]] = part[own]
     return Measure(area, _volume(spheres, area, flux), gradient, flux)
-
-
-def _slabs(spheres: Spheres) -> Iterator[tuple[Ints, Bools]]:
-    """Rows of balls, ascending, and which of them are a slab's own: no others meet these. Few balls are one slab."""
-    count, side = len(spheres.radius), 2 * float(spheres.radius.max(initial=0.0))
-    if count <= SLAB_BALLS:
-        yield np.arange(count), np.ones(count, dtype=bool)
-        return
-    low, high = spheres.box()
-    along = spheres.center[:, int(np.argmax(high - low))]
-    order = np.argsort(along)
-    place = along[order]
-    for begin in range(0, count, SLAB_BALLS):
-        end = min(begin + SLAB_BALLS, count)
-        first = np.searchsorted(place, place[begin] - ROOM * side)
-        rows = order[first : np.searchsorted(place, place[end - 1] + ROOM * side, side="right")]
-        own: Bools = np.zeros(len(rows), dtype=bool)
-        own[begin - first : end - first] = True
-        ascending = np.argsort(rows)
-        yield rows[ascending], own[ascending]
 
 
 def _of_boundary(boundary: Boundary) -> tuple[Floats, Floats, Floats]:
