@@ -502,6 +502,19 @@ def test_holes_that_ink_nearly_fills_are_filled(gap: float, count: int) -> None:
         assert found.paths.arcs.signed_area().sum() == pytest.approx(hole_area(gap))
 
 
+def test_a_line_between_two_sides_of_a_part_leaves_room_on_either() -> None:
+    """A ball in a hole, joined to what is around it by a line without ink, was filled with ink all over."""
+    hole = three_around(0.45)
+    balls = Spheres(np.array([[0.01, 0.25, -1.0], [0.0, -0.25, -1.1]]), np.full(2, 0.35))
+    scene = Spheres(np.vstack([hole.center, balls.center]), np.append(hole.radius, balls.radius))
+    view_map, runs, widths, _, _ = drawn(scene, View(np.eye(3), np.zeros(3)))
+    without = np.isin(runs.owner(), np.flatnonzero(runs.sphere == 4))
+    widths = widths._replace(width=np.where(without, 0.0, widths.width))
+    assert len(pockets(view_map, runs, widths, 0.41).run) == 0  # the upper ball has room for a disc 0.42 Å wide
+    (run,) = pockets(view_map, runs, widths, 0.6).run.tolist()
+    assert runs.sphere[run] < 3
+
+
 def hole_area(gap: float) -> float:
     """The area between three discs of radius 4 that overlap pairwise, with centres 4 + gap from the middle.
 

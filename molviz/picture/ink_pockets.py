@@ -69,7 +69,8 @@ def _with_room(
     """The parts, of half-edges sorted by them, in which there is room for a disc.
 
     A disc that is moved until it touches ink does so at some sample of the border, and keeps off the ink of all others;
-    at cusps of the border it would lie across the other side.
+    at cusps of the border it would lie across the other side. Where both sides of a line are in the part, the disc has
+    to do with the side on which it is.
     """
     arc, back = half_edge >> 1, (half_edge & 1).astype(bool)
     count = np.ceil(view_map.arcs.lengths()[arc] / STEP).astype(np.int64) + 1
@@ -83,6 +84,8 @@ def _with_room(
     reach = width * np.where(back[row], OUTSIDE, -INSIDE) + neck / 2
     center = point + reach[:, None] * inwards
     straight = ACROSS * runs.detail[runs.run_of_arc[arc[row]]]
+    key = part * (int(half_edge.max(initial=0)) + 2)
+    both_sides = np.isin(key + (half_edge ^ 1), key + half_edge)[row]
     begin, end = (np.searchsorted(part[row], part[row], side=side) for side in ("left", "right"))
     room = np.zeros(int(part.max(initial=-1)) + 1, dtype=bool)
     for few in (True, False):  # most parts have room nearly everywhere
@@ -91,8 +94,9 @@ def _with_room(
             one, other = expand(begin[asked[block]], end[asked[block]])
             away = center[asked[block]][one] - point[other]
             gap = np.hypot(*away.T)
-            across = (dot(away, inwards[other]) < 0) & (gap < straight[other])
-            gap = np.where(across, -1.0, gap - reach[other])
+            beyond = dot(away, inwards[other]) < 0
+            gap = np.where(beyond & (gap < straight[other]), -1.0, gap - reach[other])
+            gap[beyond & both_sides[other]] = np.inf
             free = np.minimum.reduceat(gap, np.flatnonzero(np.diff(one, prepend=-1))) > -TOUCH
             room[part[row[asked[block][free]]]] = True
     return np.flatnonzero(room)
