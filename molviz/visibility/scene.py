@@ -11,7 +11,6 @@ from molviz.errors import InputError, InternalError
 from molviz.geometry.boundary import Boundary, union_boundary
 from molviz.geometry.general_position import (
     ATTEMPTS,
-    GROWTH,
     NONE,
     Degenerate,
     first_general,
@@ -38,7 +37,8 @@ T = TypeVar("T")
 # Of the offset of parallel sticks, less at each attempt: some 5e-4 Å, by which the ends of their rims may miss those of
 # horizons and lines, and what passes just there is in special position however little the spheres are displaced.
 NARROWER = 5e-3
-MOST_TIMES = 4  # that an offset is made less, by twice as much each time, before all spheres are displaced anew
+WIDER_STEPS = 3.0  # times as much less at each further time that a stick is concerned: each costs a map
+MOST_TIMES = 3  # before all spheres are displaced anew
 
 
 class Prepared(NamedTuple):
@@ -110,7 +110,7 @@ class Scene:
         if attempt not in self._prepared:
             self._prepared[attempt] = _prepare(self.spheres, self.sticks, attempt, self.only)
         prepared = self._prepared[attempt]
-        less = NARROWER * (GROWTH ** times[prepared.stick] - 1.0)
+        less = NARROWER * (WIDER_STEPS ** times[prepared.stick] - 1.0)
         offset = prepared.sticks.offset * (1.0 - less)[:, None]
         return prepared._replace(sticks=prepared.sticks._replace(offset=offset))
 
