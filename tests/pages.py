@@ -1,6 +1,8 @@
 """Everything that the tests of pages, projections and culling take from the program, under names of their own."""
 
 from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -139,10 +141,13 @@ def shadow_signs(
     return plane, square + 2 * form.a * cos + 2 * form.b * sin + form.c
 
 
-def kept(spheres: Spheres, distance: float | None) -> np.ndarray:
-    """Which spheres (view coordinates) culling keeps."""
+def kept(spheres: Spheres, distance: float | None, cuts: tuple[int, ...] = ()) -> np.ndarray:
+    """Which spheres (view coordinates) culling keeps, given to it in parts that are cut before some rows."""
     view = View(np.eye(3), np.zeros(3), distance)
-    return possibly_visible(occluders_of(eye_coordinates(spheres, view), view), projection_of(view))
+    seen, ends = occluders_of(eye_coordinates(spheres, view), view), [0, *cuts, len(spheres.radius)]
+    parts = [partial(seen.take, np.arange(first, last)) for first, last in pairwise(ends)]
+    rows = possibly_visible(parts, projection_of(view))
+    return np.isin(np.arange(len(spheres.radius)), rows)
 
 
 def tees(found: VisibilityMap) -> int:

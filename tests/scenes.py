@@ -3,7 +3,7 @@
 import numpy as np
 
 from molviz.geometry.boundary import union_boundary
-from molviz.geometry.general_position import general_position
+from molviz.geometry.general_position import displaced, first_of_each
 from molviz.model.spheres import Spheres
 from molviz.model.sticks import NO_STICKS, Sticks
 from molviz.visibility.eye import eye_coordinates, occluders_of, projection_of, sticks_in_view
@@ -24,6 +24,12 @@ def pieces_of(spheres: Spheres, view: View, sticks: Sticks = NO_STICKS) -> Piece
     seen = eye_coordinates(spheres, view)
     solids = Solids(occluders_of(seen, view), sticks_in_view(seen, sticks, view))
     return painter_pieces(union_boundary(spheres), solids, np.arange(len(spheres.radius)), view, projection_of(view))
+
+
+def general_position(spheres: Spheres, attempt: int = 0) -> tuple[Spheres, np.ndarray]:
+    """A displaced copy without exact duplicates, and the rows of the spheres in it."""
+    rows = first_of_each(spheres)
+    return displaced(spheres.take(rows), rows, attempt), rows
 
 
 def shaken(center: object, radius: object) -> Spheres:

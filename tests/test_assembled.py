@@ -2,18 +2,22 @@
 
 import pickle
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import molviz
 from molviz.errors import InputError
-from molviz.model.assembled import Assembled, Copy
+from molviz.model.assembled import Assembled, BallsOfCopies, Copy
 from molviz.model.bonds import Bonds
 from molviz.model.molecule import Molecule, column_names
 from molviz.model.radii import radii
 from molviz.model.selection import is_hydrogen, is_water
+from molviz.model.spheres import Spheres, box_of
+from molviz.readers import Reading
 
 PLAIN = Molecule.of(
     "two chains", np.arange(21.0).reshape(7, 3), ["N", "C", "O", "H", "O", "Xx", "ZN"],
@@ -110,6 +114,70 @@ def test_no_other_attribute() -> None:
         Assembled.of_copies(PLAIN, COPIES).colour  # noqa: B018
 
 
+def test_places_and_balls_are_those_of_the_atoms() -> None:
+    whole, plain = Assembled.of_copies(PLAIN, COPIES), written_out(COPIES)
+    firsts, parts = zip(*whole.places(), strict=True)
+    assert firsts == (0, 3, 6) and np.array_equal(np.concatenate(parts), plain.position)
+    balls, expected = BallsOfCopies(whole, np.arange(1.0, 11.0)), Spheres(plain.position, np.arange(1.0, 11.0))
+    np.testing.assert_array_equal(balls.whole().center, expected.center)
+    for rows in (np.array([7, 0, 3, 3]), np.array([], dtype=np.int64)):
+        for one, other in zip(balls.take(rows), expected.take(rows), strict=True):
+            np.testing.assert_array_equal(one, other)
+    for (first, part), size in zip(balls.parts(), (3, 3, 4), strict=True):
+        np.testing.assert_array_equal(part.radius, expected.radius[first : first + size])
+        np.testing.assert_array_equal(part.center, expected.center[first : first + size])
+    for one, other in zip(box_of(balls), expected.box(), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+def ring_of_copies() -> Assembled:
+    """Six copies of a random coil of three residues, in a ring that hides some of them, one shifted a little."""
+    rng = np.random.default_rng(5)
+    position = np.cumsum(rng.normal(size=(90, 3)) * 0.9, axis=0) + [9.0, 0.0, 0.0]
+    coil = Molecule.of(
+        "coil", position, rng.choice(["C", "C", "N", "O"], 90), chain=np.repeat(["A", "B"], 45),
+        residue_name=np.repeat(["ALA", "GLY", "LIG"], 30), residue=np.repeat(["1", "2", "3"], 30),
+    )  # fmt: skip
+    copies = []
+    for number, angle in enumerate(np.radians([0, 60, 120, 180, 240, 300])):
+        turn = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
+        operator, suffix = np.column_stack([turn, [0.1 * number, 0, 0]]), f"-{number}" if number else ""
+        copies.append(Copy(np.arange(90), operator, suffix))
+    return Assembled.of_copies(coil, copies)
+
+
+@pytest.mark.parametrize("options", [
+    {"style": "goodsell"}, {"style": "flat", "perspective": 150.0}, {"style": "flat", "color_by": "chain"},
+    {"style": "flat", "select": "not chain A-2"}, {"rep": "sticks"}, {"turntable": 2}, {"method": "painter"},
+], ids=str)  # fmt: skip
+@pytest.mark.filterwarnings("ignore:coil")
+def test_assemblies_are_drawn_as_the_same_atoms_written_out(options: dict[str, Any]) -> None:
+    """About the file's axes: sums over copies have other last digits, and principal axes may."""
+    copies = ring_of_copies()
+    written = copies.take(np.arange(len(copies)))
+    assert type(written) is Molecule
+    drawn, expected = (
+        molviz.draw(Reading("coil", "pdb", (one,), operator_chain=(one.chain,)), orient="file", **options)
+        for one in (copies, written)
+    )
+    assert drawn.svg() == expected.svg()
+    if options.keys().isdisjoint(("turntable", "method")):
+        assert drawn.to("json") == expected.to("json")
+
+
+def test_of_an_assembly_only_what_may_be_seen_is_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Neither the places nor the names of all atoms are written out, but what tells polymers from ligands."""
+    copies, made = ring_of_copies(), set()
+    column = type(copies._columns).column
+    monkeypatch.setattr(
+        type(copies._columns), "column", lambda columns, name: made.add(name) or column(columns, name)
+    )
+    molviz.draw(Reading("coil", "pdb", (copies,)), style="flat", color_by="element").svg()
+    assert made.isdisjoint(("position", "element", "bfactor", "row", "segment", "hetero"))
+
+
 def test_an_operator_beyond_all_numbers_is_refused() -> None:
-    with pytest.raises(InputError, match="moves atoms to where no number is"):
-        Assembled.of_copies(PLAIN, [Copy(np.arange(7), np.full((3, 4), 1e308), "")])
+    whole = Assembled.of_copies(PLAIN, [Copy(np.arange(7), np.full((3, 4), 1e308), "")])
+    for use in (molviz.draw, molviz.measure):
+        with pytest.raises(InputError, match="position: row 0 is not finite"):
+            use(whole)

@@ -1,5 +1,6 @@
 """Legends and labels: which names, in which colours and order, at which atoms; what is chosen if nothing is asked."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -237,7 +238,7 @@ def test_what_means_nothing_or_is_hidden_is_told() -> None:
     loaded = load("three.xyz", InputOptions(), balls)[0]
     asked = ("element Zn=gone", "element Fe", "element O=seen")
     request = DrawRequest(DrawOptions(TIDE), (("element N", (9, 9, 9)), ("element C", (8, 8, 8))), asked)
-    wide = loaded._replace(spheres=loaded.spheres._replace(radius=np.array([3.0, 1.0, 1.0])))
+    wide = replace(loaded, radius=np.array([3.0, 1.0, 1.0]))
     assert drawing_of(wide, request, ViewOptions("file")).notes == (
         "three.xyz: color 'element N' means no atom that is drawn",
         "three.xyz: label 'element Zn' means no atom that is drawn",

@@ -4,8 +4,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from molviz.geometry.general_position import general_position
 from molviz.model.spheres import Spheres
+from tests.scenes import general_position
 
 SMALL = st.tuples(*[st.integers(-1, 1)] * 3, st.integers(1, 2))
 

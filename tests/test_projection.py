@@ -3,6 +3,8 @@
 Spheres are in view coordinates moved so that a central eye is the origin; for a parallel view it is far up the z axis.
 """
 
+from functools import partial
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -12,6 +14,7 @@ from molviz.geometry.circles import circles_about
 from molviz.model.spheres import Spheres
 from molviz.visibility import culling
 from molviz.visibility.curves import HORIZON, Curves, creases_of
+from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.view import file_axes
 from tests.oracle import heights, random_spheres
 from tests.pages import STRAIGHT, horizons, kept, margins, occluders, projection, shadow_signs, tees
@@ -258,6 +261,23 @@ def test_culling_in_many_groups_keeps_all_that_shows(
     monkeypatch.setattr(culling, "CLUSTER", 2)
     assert 100 < at_once.sum() < 400
     assert np.array_equal(kept(spheres, distance), at_once)
+    for cuts in ((200,), (0, 7, 7, 130, 131, 300), tuple(range(1, 400))):
+        assert np.array_equal(kept(spheres, distance, cuts), at_once)
+
+
+@EYES
+def test_parts_that_are_hidden_are_not_made_again(distance: float | None) -> None:
+    x, y = (column.ravel() for column in np.meshgrid(np.arange(-3, 4), np.arange(-3, 4)))
+    parts = [np.column_stack([x / 3, y / 3, np.full(49, z)]) for z in (0.0, -2.0)]
+    parts.append(np.column_stack([x, y, np.full(49, 6.0)]))
+    made = []
+
+    def part(number: int) -> SphereOccluders:
+        made.append(number)
+        return occluders(Spheres(parts[number] - [0.0, 0.0, distance or 0.0], np.ones(49)), distance)
+
+    rows = culling.possibly_visible([partial(part, number) for number in range(3)], projection(distance))
+    assert made == [0, 1, 2, 2] and np.array_equal(rows, np.arange(98, 147))
 
 
 def spheres_of(*rows: tuple[float, float, float, float]) -> Spheres:

@@ -9,7 +9,7 @@ from molviz.errors import InputError
 from molviz.model.elements import SYMBOLS
 from molviz.model.molecule import Molecule
 from molviz.model.radii import TABLES, load_table, radii
-from molviz.model.spheres import spheres_of
+from molviz.model.spheres import Spheres
 
 
 def molecule(*elements: str, **columns: list[str]) -> Molecule:
@@ -69,7 +69,7 @@ def test_radii_of_the_file_go_first() -> None:
 
 
 def test_scale_and_probe() -> None:
-    spheres = spheres_of(molecule("C"))[0].enlarged(0.5, 1.4)
+    spheres = Spheres(molecule("C").position, radii(molecule("C"))[0]).enlarged(0.5, 1.4)
     assert spheres.radius.tolist() == [0.5 * 1.7 + 1.4]
 
 

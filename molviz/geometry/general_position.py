@@ -14,7 +14,7 @@ import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints, distinct
 from molviz.errors import InternalError
-from molviz.model.spheres import Spheres
+from molviz.model.spheres import Balls, Spheres
 
 DISPLACEMENT = 5e-5  # of a sphere's radius: 1e-4 Å for an atom, below a file's precision and far above rounding
 NUDGE = 2e-8  # of a radius, for numbers: below 1e-7 Å for balls up to 5 Å, and above COINCIDE, where ties have rules
@@ -50,17 +50,15 @@ def first_general(query: Callable[[int], T]) -> T:
     raise InternalError(f"the spheres stay in special position after {ATTEMPTS} perturbations")
 
 
-def general_position(spheres: Spheres, attempt: int = 0) -> tuple[Spheres, Ints]:
-    """Return a displaced copy without exact duplicates, and the rows of the spheres in it.
+def displaced(spheres: Spheres, rows: Ints, attempt: int) -> Spheres:
+    """Return the spheres displaced as those of the given rows (n,) of a scene are, each within itself.
 
     Radii shrink by a little more than the displacement, so that spheres which touch from outside come apart instead
     of opening a sliver of a crease.
     """
-    rows = _first_of_each(spheres)
-    radius = spheres.radius[rows]
     direction = _unit_vectors(rows, attempt)
-    center = spheres.center[rows] + direction * (DISPLACEMENT * GROWTH**attempt * radius)[:, None]
-    return Spheres(center, radius * shrinkage(attempt)), rows
+    center = spheres.center + direction * (DISPLACEMENT * GROWTH**attempt * spheres.radius)[:, None]
+    return Spheres(center, spheres.radius * shrinkage(attempt))
 
 
 def shrinkage(attempt: int) -> float:
@@ -77,17 +75,22 @@ def nudged(spheres: Spheres, times: Ints) -> Spheres:
     return Spheres(center, spheres.radius)
 
 
-def _first_of_each(spheres: Spheres) -> Ints:
-    """The rows of the spheres less those that are equal to an earlier one: equal ones have equal sums of columns."""
-    total = spheres.center[:, 0] + math.pi * spheres.center[:, 1] + math.e * spheres.center[:, 2] + spheres.radius
+def first_of_each(balls: Balls) -> Ints:
+    """Return the rows of n balls less those that are equal to an earlier one: equal ones have equal sums of columns."""
+    total = np.concatenate([np.empty(0), *(_total(part) for _, part in balls.parts())])
     order = np.argsort(total, kind="stable")
     again = np.flatnonzero(total[order][1:] == total[order][:-1])
     rows = distinct(order[np.append(again, again + 1)])
     first: Bools = np.ones(len(total), dtype=bool)
     first[rows] = False
-    table = np.column_stack([spheres.center, spheres.radius])[rows]
+    table = np.column_stack(balls.take(rows))
     first[rows[np.unique(table, axis=0, return_index=True)[1]]] = True
     return np.flatnonzero(first)
+
+
+def _total(spheres: Spheres) -> Floats:
+    x, y, z = spheres.center.T
+    return np.asarray(x + math.pi * y + math.e * z + spheres.radius)
 
 
 def _unit_vectors(rows: Ints, attempt: int) -> Floats:

@@ -16,7 +16,7 @@ from molviz.geometry.rows import expand
 from molviz.geometry.stick_rules import Rods, lengths, settled
 from molviz.model.bonds import AROMATIC, Bonds
 from molviz.model.representations import BALL_AND_STICK, STICKS, USUAL, Sizes
-from molviz.model.spheres import Spheres
+from molviz.model.spheres import Balls, Spheres
 from molviz.model.sticks import Sticks
 from molviz.vectors import dot
 
@@ -37,7 +37,7 @@ _PARALLEL = {
 class BallsAndSticks(NamedTuple):
     """What stands for n atoms in a drawing."""
 
-    balls: Spheres  # (n,)
+    balls: Balls  # (n,)
     sticks: Sticks
     notes: tuple[str, ...]  # what is odd
 

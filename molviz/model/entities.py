@@ -138,7 +138,7 @@ def _bonded(molecule: Molecule, residues: _Residues, of: Bools, step: int, names
     bonded = np.zeros(count, dtype=bool)
     for name in names:
         place = _places(molecule, residues, name)[neighbor[owner]]
-        gap = ((molecule.position[atom] - place) ** 2).sum(axis=1)
+        gap = ((molecule.position_of(atom) - place) ** 2).sum(axis=1)
         bonded[owner[gap <= LINK**2]] = True  # never true of NaN
     return bonded
 
@@ -147,7 +147,7 @@ def _places(molecule: Molecule, residues: _Residues, name: str) -> Floats:
     """Return where each residue's atom of that name is (r, 3), NaN where it has none."""
     place = np.full((len(residues.start), 3), np.nan)
     atom = np.flatnonzero(molecule.atom_name == name)
-    place[residues.of_atom[atom]] = molecule.position[atom]
+    place[residues.of_atom[atom]] = molecule.position_of(atom)
     return place
 
 

@@ -1,6 +1,6 @@
 """A molecule: named atoms in space, as a file or an object of another library described them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any
@@ -87,6 +87,14 @@ class Molecule:
         """Return the molecule of the given atoms, in that order."""
         columns = {name: getattr(self, name)[rows] for name in column_names()}
         return Molecule(name=self.name, **columns, stated_bonds=self.stated_bonds.take(rows, len(self)))
+
+    def places(self) -> Iterator[tuple[int, Floats]]:
+        """Yield where the atoms are, in parts: the row of the first, and (m, 3) ångström."""
+        yield 0, self.position
+
+    def position_of(self, rows: Ints) -> Floats:
+        """Return where the given atoms are (m, 3)."""
+        return self.position[rows]
 
     def filtered(self, keep: Bools) -> "Molecule":
         """Return the molecule of the atoms to keep (n,)."""

@@ -1,12 +1,32 @@
 """The table that all geometry starts from."""
 
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from molviz.arrays import Floats, Ints
-from molviz.model.molecule import Molecule
-from molviz.model.radii import DEFAULT, radii
+
+
+class Balls(Protocol):
+    """What is asked of n balls, which may be too many for all their centres to be kept."""
+
+    @property
+    def radius(self) -> Floats:
+        """The radii (n,) in ångström."""
+
+    @property
+    def cuts(self) -> Ints:
+        """Where parts of them, which lie together, begin and end: rows (parts + 1,)."""
+
+    def take(self, rows: Ints) -> "Spheres":
+        """Return the given balls, in that order."""
+
+    def whole(self) -> "Spheres":
+        """Return all of them."""
+
+    def parts(self) -> Iterator[tuple[int, "Spheres"]]:
+        """Yield the parts that have any: the row of the first ball, and all of the part."""
 
 
 class Spheres(NamedTuple):
@@ -22,6 +42,19 @@ class Spheres(NamedTuple):
         """Return the given spheres, in that order."""
         return Spheres(self.center.take(rows, axis=0), self.radius[rows])
 
+    @property
+    def cuts(self) -> Ints:
+        """All are one part: they are kept anyway."""
+        return np.array([0, len(self.radius)])
+
+    def whole(self) -> "Spheres":
+        """Return the spheres themselves."""
+        return self
+
+    def parts(self) -> Iterator[tuple[int, "Spheres"]]:
+        """Yield all of them."""
+        yield 0, self
+
     def enlarged(self, scale: float, probe: float) -> "Spheres":
         """Return the spheres with ``scale`` times their radii plus ``probe`` ångström."""
         return Spheres(self.center, scale * self.radius + probe)
@@ -32,7 +65,7 @@ class Spheres(NamedTuple):
         return np.min(self.center - reach, axis=0), np.max(self.center + reach, axis=0)
 
 
-def spheres_of(molecule: Molecule, table: str = DEFAULT) -> tuple[Spheres, tuple[str, ...]]:
-    """Return a sphere per atom, of its radius in the table, and warnings."""
-    radius, warnings = radii(molecule, table)
-    return Spheres(molecule.position, radius), warnings
+def box_of(balls: Balls) -> tuple[Floats, Floats]:
+    """Return the corners (3,), (3,) of the bounding box of n ≥ 1 balls."""
+    low, high = zip(*(part.box() for _, part in balls.parts()), strict=True)
+    return np.min(low, axis=0), np.max(high, axis=0)

@@ -245,7 +245,7 @@ def drawing_of(
     ``check`` verifies the visibility map and raises InternalError where an invariant does not hold. Raises InputError
     where the eye is not in front of all atoms.
     """
-    view = view_of(shown(loaded, request.solids)[0].spheres, view_options)
+    view = view_of(shown(loaded, request.solids)[0].balls, view_options)
     return drawings_of(loaded, request, [view], method, check)[0]
 
 
@@ -263,7 +263,7 @@ def drawings_of(
     """
     loaded, representation = shown(loaded, request.solids)
     solids = solids_for(loaded, representation, request.solids)
-    refuse_unresolved(loaded._replace(spheres=solids.balls))
+    refuse_unresolved(solids.balls, loaded.source)
     for view in views:
         refuse_eye_among(solids.balls, view)
     unit = unit_of(loaded) if unit is None else unit

@@ -105,7 +105,7 @@ class Index:
 
     @cached_property
     def _surroundings(self) -> Surroundings:
-        refuse_unresolved(self._loaded)
+        refuse_unresolved(self._loaded.balls, self._loaded.source)
         return Surroundings(self.spheres)
 
     def clashes(self, other: Any, placements: Any = None, tolerance: float = 0.0) -> Clashes:

@@ -1,8 +1,8 @@
 """From a file to the atoms that the user wants of it, and their spheres."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import PurePath
-from typing import NamedTuple
 
 import numpy as np
 
@@ -10,11 +10,12 @@ from molviz.arrays import Bools, Floats, Ints
 from molviz.errors import InputError, OptionError, listed
 from molviz.geometry.boundary_graph import boundary_graph
 from molviz.geometry.shells import lining, shells_of
+from molviz.model.assembled import Assembled, BallsOfCopies
 from molviz.model.elements import UNKNOWN
 from molviz.model.molecule import Molecule
-from molviz.model.radii import DEFAULT, OWN, is_known
+from molviz.model.radii import DEFAULT, OWN, is_known, radii
 from molviz.model.selection import is_hydrogen, is_water, select
-from molviz.model.spheres import Spheres, spheres_of
+from molviz.model.spheres import Balls, Spheres, box_of
 from molviz.readers import FORMATS as READERS
 from molviz.readers import Reading, read
 
@@ -45,7 +46,8 @@ class InputOptions:
     unpack_all: bool = False  # archives however much they hold
 
 
-class Loaded(NamedTuple):
+@dataclass(frozen=True, repr=False)
+class Loaded:
     """One model of one file, ready for geometry; ``read`` counts its atoms before any were left out."""
 
     source: str
@@ -54,9 +56,29 @@ class Loaded(NamedTuple):
     models: int  # that the file holds
     read: int
     molecule: Molecule
-    spheres: Spheres
-    bare: Spheres  # radii of the table, neither scaled nor with a probe
+    radius: Floats  # (n,) ångström, of the balls
+    bare_radius: Floats  # (n,) of the table, neither scaled nor with a probe
     warnings: tuple[str, ...]
+
+    @cached_property
+    def spheres(self) -> Spheres:
+        """The balls of the atoms (n,)."""
+        return Spheres(self.molecule.position, self.radius)
+
+    @property
+    def bare(self) -> Spheres:
+        """The same of their bare radii."""
+        return Spheres(self.spheres.center, self.bare_radius)
+
+    @property
+    def balls(self) -> Balls:
+        """The balls of the atoms (n,), of copies of a molecule part by part."""
+        return BallsOfCopies(self.molecule, self.radius) if isinstance(self.molecule, Assembled) else self.spheres
+
+    def filtered(self, keep: Bools) -> "Loaded":
+        """Return the model of the atoms to keep (n,)."""
+        molecule = self.molecule.filtered(keep)
+        return replace(self, molecule=molecule, radius=self.radius[keep], bare_radius=self.bare_radius[keep])
 
 
 def load(source: str, wanted: InputOptions, data: bytes | None = None) -> list[Loaded]:
@@ -100,23 +122,28 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
     whole = reading.models[number - 1]
     if wanted.assembly is not None:
         whole = reading.assembly(wanted.assembly, number - 1)
-    _refuse_unheld("a coordinate", np.abs(whole.position).max(axis=1), 0.0, reading.source)
+    _refuse_unheld("a coordinate", _farthest(whole), 0.0, reading.source)
     molecule = _named(_kept(whole, wanted, reading.source, number), reading.source)
     if reading.format in WITH_CHARGES and wanted.radii != OWN:
         molecule = replace(molecule, radius=np.where(molecule.element == UNKNOWN, molecule.radius, np.nan))
     _refuse_beads(whole, molecule, wanted.radii, reading.source)
-    bare, warnings = spheres_of(molecule, wanted.radii)
-    _refuse_unheld("a radius", bare.radius, SHORTEST, reading.source)
+    bare, warnings = radii(molecule, wanted.radii)
+    _refuse_unheld("a radius", bare, SHORTEST, reading.source)
     if wanted.cavities is not None:
-        rows = _lining(bare.enlarged(wanted.scale_radii, wanted.cavities), wanted.cavities, reading.source)
-        molecule, bare = molecule.take(rows), bare.take(rows)
-    spheres = bare.enlarged(wanted.scale_radii, wanted.probe)
-    warnings += _far_apart(spheres) + _without_water(whole, molecule, wanted) + _without_radius(whole, wanted)
-    told = tuple(f"{reading.source}: {warning}" for warning in warnings)
-    count = len(reading.models)
-    return Loaded(
-        reading.source, reading.format, number, count, len(whole), molecule, spheres, bare, reading.warnings + told
-    )
+        enlarged = Spheres(molecule.position, bare).enlarged(wanted.scale_radii, wanted.cavities)
+        rows = _lining(enlarged, wanted.cavities, reading.source)
+        molecule, bare = molecule.take(rows), bare[rows]
+    radius = wanted.scale_radii * bare + wanted.probe
+    count, read_ = len(reading.models), len(whole)
+    loaded = Loaded(reading.source, reading.format, number, count, read_, molecule, radius, bare, reading.warnings)
+    warnings += _far_apart(loaded.balls) + _without_water(whole, molecule, wanted) + _without_radius(whole, wanted)
+    return replace(loaded, warnings=reading.warnings + tuple(f"{reading.source}: {warning}" for warning in warnings))
+
+
+def _farthest(molecule: Molecule) -> Floats:
+    """The largest coordinate (n,) of each atom."""
+    parts = [np.abs(position).max(axis=1) for _, position in molecule.places()]
+    return np.concatenate([np.empty(0), *parts])
 
 
 def _refuse_beads(whole: Molecule, molecule: Molecule, table: str, source: str) -> None:
@@ -144,13 +171,13 @@ def _refuse_unheld(what: str, size: Floats, least: float, source: str) -> None:
         raise InputError(message, source)
 
 
-def refuse_unresolved(loaded: Loaded) -> None:
+def refuse_unresolved(balls: Balls, source: str) -> None:
     """Raise InputError where the smallest ball is lost in the rounding of a scene as large as this."""
-    low, high = loaded.spheres.box()
-    extent, least = float(np.max(high - low)), float(loaded.spheres.radius.min())
+    low, high = box_of(balls)
+    extent, least = float(np.max(high - low)), float(balls.radius.min())
     if np.spacing(extent) * RESOLVED > least:
         message = f"an atom of {least:.3g} Å is lost in the rounding of atoms that extend over {extent:.3g} Å"
-        raise InputError(f"{message}; expected nearer ones", loaded.source)
+        raise InputError(f"{message}; expected nearer ones", source)
 
 
 def _kept(molecule: Molecule, wanted: InputOptions, source: str, model: int) -> Molecule:
@@ -195,9 +222,10 @@ def _without_radius(whole: Molecule, wanted: InputOptions) -> tuple[str, ...]:
     return (f"{missing} atoms of radius 0 in the file are left out",) if missing else ()
 
 
-def _far_apart(spheres: Spheres) -> tuple[str, ...]:
-    extent = float(np.max(np.ptp(spheres.center, axis=0)))
-    if extent <= FAR_APART * float(spheres.radius.max()):
+def _far_apart(balls: Balls) -> tuple[str, ...]:
+    low, high = zip(*((part.center.min(axis=0), part.center.max(axis=0)) for _, part in balls.parts()), strict=True)
+    extent = float(np.max(np.max(high, axis=0) - np.min(low, axis=0)))
+    if extent <= FAR_APART * float(balls.radius.max()):
         return ()
     return (f"the atoms extend over {extent:.3g} Å: in a picture of all, each is smaller than a pixel",)
 

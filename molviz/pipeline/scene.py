@@ -46,8 +46,8 @@ class Scene:
         loaded, representation = shown(load_one(x, options), wanted)
         solids = solids_for(loaded, representation, wanted)
         tell((*loaded.warnings, *solids.notes), stacklevel=3)
-        self.molecule, self.spheres, self.sticks = loaded.molecule, solids.balls, solids.sticks
-        self.view = principal_axes(loaded.spheres)
+        self.molecule, self.spheres, self.sticks = loaded.molecule, solids.balls.whole(), solids.sticks
+        self.view = principal_axes(loaded.balls)
         self._scene = SphereScene(self.spheres, None, self.sticks)
 
     def __repr__(self) -> str:

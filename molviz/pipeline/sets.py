@@ -180,7 +180,7 @@ def drawn(
     options = request.options.settled(entities_of(first.molecule), method == "painter")
     if together.stereo:
         options = replace(options, page=page_of_half(options.page))
-    request, view = replace(request, options=options), view_of(first.spheres, view_options)
+    request, view = replace(request, options=options), view_of(first.balls, view_options)
     unit = unit_of(first)
     around = views_around(view, together.turntable or 1)
     views = [eye for one in around for eye in eyes(one, together.stereo)]

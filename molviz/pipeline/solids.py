@@ -85,8 +85,7 @@ def shown(loaded: Loaded, options: SolidOptions) -> tuple[Loaded, Strings]:
         return loaded, names
     if not keep.any():
         raise InputError("all atoms are hidden; expected one at least to draw", loaded.source)
-    spheres, bare = (balls.take(np.flatnonzero(keep)) for balls in (loaded.spheres, loaded.bare))
-    return loaded._replace(molecule=loaded.molecule.filtered(keep), spheres=spheres, bare=bare), names[keep]
+    return loaded.filtered(keep), names[keep]
 
 
 def _has_sticks(representation: Strings) -> Bools:
@@ -96,6 +95,6 @@ def _has_sticks(representation: Strings) -> Bools:
 def solids_for(loaded: Loaded, representation: Strings, options: SolidOptions) -> BallsAndSticks:
     """Return what stands for the atoms of a model without hidden ones; bonds are looked for where any are drawn."""
     if not _has_sticks(representation).any():
-        return BallsAndSticks(loaded.spheres, NO_STICKS, ())
+        return BallsAndSticks(loaded.balls, NO_STICKS, ())
     solids = solids_of(loaded.spheres, representation, bonds_of(loaded.molecule, options.bonds), options.sizes)
     return solids._replace(notes=tuple(f"{loaded.source}: {note}" for note in solids.notes))

@@ -169,7 +169,7 @@ def surface_of(loaded: Loaded, probe: float, outer_only: bool = False, check: bo
     identities of the surface and raises InternalError where one does not hold. Raises InputError where the smallest
     ball is lost in the rounding of the scene.
     """
-    refuse_unresolved(loaded)
+    refuse_unresolved(loaded.balls, loaded.source)
     graph = boundary_graph(loaded.spheres.enlarged(1.0, probe))
     shells = shells_of(graph)
     kept = part_of_boundary(graph, reached_from_outside(shells)) if outer_only else whole_boundary(graph)

@@ -31,7 +31,7 @@ def in_unit(loaded: Loaded, unit: float) -> Loaded:
         return loaded
     molecule = loaded.molecule
     scaled = replace(molecule, position=molecule.position / unit, radius=molecule.radius / unit)
-    return loaded._replace(molecule=scaled, spheres=_divided(loaded.spheres, unit), bare=_divided(loaded.bare, unit))
+    return replace(loaded, molecule=scaled, radius=loaded.radius / unit, bare_radius=loaded.bare_radius / unit)
 
 
 def _divided(spheres: Spheres, unit: float) -> Spheres:
@@ -43,7 +43,7 @@ def solids_in_unit(solids: BallsAndSticks, unit: float) -> BallsAndSticks:
     if unit == 1.0:
         return solids
     sticks = solids.sticks._replace(radius=solids.sticks.radius / unit, offset=solids.sticks.offset / unit)
-    return solids._replace(balls=_divided(solids.balls, unit), sticks=sticks)
+    return solids._replace(balls=_divided(solids.balls.whole(), unit), sticks=sticks)
 
 
 def view_in_unit(view: View, unit: float) -> View:

@@ -8,7 +8,7 @@ import numpy as np
 
 from molviz.arrays import Floats
 from molviz.errors import InputError
-from molviz.model.spheres import Spheres
+from molviz.model.spheres import Balls, Spheres
 from molviz.visibility.view import View, file_axes, middle, principal_axes
 
 Quaternion: TypeAlias = tuple[float, float, float, float]  # w, x, y, z; from the file's axes to the page's
@@ -26,19 +26,19 @@ class ViewOptions:
     orientation: Quaternion | None = None  # instead of ``orient``
 
 
-def view_of(spheres: Spheres, view_options: ViewOptions) -> View:
+def view_of(balls: Balls, view_options: ViewOptions) -> View:
     """Return the view that the user's options mean for one model."""
-    view = _beginning(spheres, view_options)
+    view = _beginning(balls, view_options)
     for axis, degrees in view_options.rotations:
         view = view.rotated(axis, degrees)
     return view
 
 
-def _beginning(spheres: Spheres, view_options: ViewOptions) -> View:
+def _beginning(balls: Balls, view_options: ViewOptions) -> View:
     if view_options.orientation is not None:
-        return View(rotation_of(view_options.orientation), middle(spheres), view_options.distance)
+        return View(rotation_of(view_options.orientation), middle(balls), view_options.distance)
     axes = principal_axes if view_options.orient == "principal" else file_axes
-    return axes(spheres, view_options.distance)
+    return axes(balls, view_options.distance)
 
 
 def rotation_of(quaternion: Quaternion) -> Floats:

@@ -296,7 +296,7 @@ def _quoted(name: str) -> str:
 
 def _with_beads(solids: BallsAndSticks) -> tuple[Spheres, Ints]:
     """Balls, then sticks as strings of beads that nearly look like them while they move; and the atom of each (b,)."""
-    balls, sticks = solids.balls, solids.sticks
+    balls, sticks = solids.balls.whole(), solids.sticks
     begin, end = balls.center[sticks.first] + sticks.offset, balls.center[sticks.second] + sticks.offset
     length = np.linalg.norm(end - begin, axis=1)
     beads = np.maximum(np.ceil(length / (BEAD_STEP * sticks.radius)), 1).astype(np.int64)

@@ -4,12 +4,12 @@ The page is cut into square cells. Where a sphere covers a whole cell, everythin
 sphere is dropped when every cell it touches is blocked in front of it. No sphere that shows is ever dropped.
 """
 
-from collections.abc import Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from molviz.arrays import Bools, Floats, Ints
+from molviz.arrays import Floats, Ints
 from molviz.geometry.rows import blocks, expand, lists_taken
 from molviz.threads import in_threads
 from molviz.visibility.occluders.sphere import SphereOccluders
@@ -21,12 +21,31 @@ GROUP = 32  # blocks at a time
 CLUSTER = 16  # cells: some hundreds of atoms
 
 
-class _Cells(NamedTuple):
-    """The cells each sphere's bounding box touches: columns and rows from ``low`` to ``high``, inclusive."""
+Part: TypeAlias = Callable[[], SphereOccluders]
+
+
+class _Page(NamedTuple):
+    """The grid of cells."""
 
     origin: Floats  # (2,)
     side: float
     wide: int
+    tall: int
+
+
+class _Outline(NamedTuple):
+    """What of a part is known before its spheres are made again."""
+
+    low: Floats  # (2,) corner of the bounding box on the page
+    high: Floats  # (2,)
+    half: Floats  # (n, 2) half-extent of each sphere
+    nearest: float
+
+
+class _Cells(NamedTuple):
+    """The cells each sphere's bounding box touches: columns and rows from ``low`` to ``high``, inclusive."""
+
+    page: _Page
     low: Ints  # (n, 2)
     high: Ints  # (n, 2)
 
@@ -40,31 +59,56 @@ class _Clusters(NamedTuple):
     cells: _Cells  # (c,) that the bounding boxes touch
 
 
-def possibly_visible(spheres: SphereOccluders, projection: Projection) -> Bools:
-    """Return which of n spheres may be seen (n,), in time linear in n for atoms.
+def possibly_visible(parts: Sequence[Part], projection: Projection) -> Ints:
+    """Return which spheres may be seen, ascending, in time linear in their number for atoms.
 
-    The nearest come first: most clusters of spheres are hidden by what covers the page before them, and none of their
-    spheres is looked at. What is left is asked again when all is known. No list of all spheres' cells is ever made.
+    They are numbered through the ``parts``, of which none is kept. The nearest come first: most parts and clusters of
+    spheres are hidden by what covers the page before them, and none of their spheres is looked at. What is left is
+    asked again when all is known. No list of all spheres' cells is ever made.
     """
-    cells = _cells(spheres, projection)
+    outlines = [_outline(part(), projection) for part in parts]
+    page, first = _page(outlines), np.cumsum([0, *(len(one.half) for one in outlines)])
+    cover = np.full(page.tall * page.wide, -np.inf)  # how near each cell is covered
+    left: list[tuple[Ints, SphereOccluders]] = []
+    for number in np.argsort([-one.nearest for one in outlines]).tolist():
+        if _part_shows(page, outlines[number], cover):
+            spheres = parts[number]()
+            rows = _not_yet_hidden(spheres, _cells(spheres, projection, page), cover)
+            left.append((first[number] + rows, spheres.take(rows)))
+    visible = [row[_shown(spheres, _cells(spheres, projection, page), cover)] for row, spheres in left]
+    return np.sort(np.concatenate(visible))
+
+
+def _not_yet_hidden(spheres: SphereOccluders, cells: _Cells, cover: Floats) -> Ints:
+    """The spheres of a part that what was before them does not hide; the cover is theirs as well then."""
     clusters = _clusters(spheres, cells)
-    cover = np.full((int(cells.high[:, 1].max()) + 1) * cells.wide, -np.inf)  # how near each cell is covered
-    left: list[Ints] = []
+    left = [np.empty(0, dtype=np.int64)]
     for group in _groups(cells, clusters, cover):
         for shown, cell, least in in_threads(lambda rows: _bounds(spheres, cells, rows, cover), group):
             left.append(shown)
             np.maximum.at(cover, cell, least)
-    rows = np.concatenate(left)
-    again = in_threads(lambda block: _bounds(spheres, cells, rows[block], cover)[0], _blocks(cells, rows))
-    visible: Bools = np.zeros(len(cells.low), dtype=bool)
-    visible[np.concatenate(again)] = True
-    return visible
+    return np.concatenate(left)
+
+
+def _shown(spheres: SphereOccluders, cells: _Cells, cover: Floats) -> Ints:
+    """The spheres that show when all that covers is known."""
+    rows = np.arange(len(cells.low))
+    shown = in_threads(lambda block: _bounds(spheres, cells, rows[block], cover)[0], _blocks(cells, rows))
+    return np.concatenate([rows[:0], *shown])
+
+
+def _part_shows(page: _Page, outline: _Outline, cover: Floats) -> bool:
+    """Whether anything of a part may lie before the cover of some cell."""
+    if not len(outline.half):
+        return False
+    (x0, y0), (x1, y1) = (_cell(page, corner).tolist() for corner in (outline.low, outline.high))
+    return bool(np.any(cover.reshape(page.tall, page.wide)[y0 : y1 + 1, x0 : x1 + 1] < outline.nearest))
 
 
 def _clusters(spheres: SphereOccluders, cells: _Cells) -> _Clusters:
     """The spheres with centres in one cube of space, ``CLUSTER`` cells wide, as a cluster."""
     center = spheres.spheres.center
-    cube = np.floor((center - center.min(axis=0)) / (CLUSTER * cells.side)).astype(np.int64)
+    cube = np.floor((center - center.min(axis=0)) / (CLUSTER * cells.page.side)).astype(np.int64)
     wide = cube.max(axis=0) + 1
     key = (cube[:, 2] * wide[1] + cube[:, 1]) * wide[0] + cube[:, 0]
     order = np.argsort(key, kind="stable")
@@ -99,24 +143,41 @@ def _clusters_shown(clusters: _Clusters, rows: Ints, cover: Floats) -> Ints:
 def _bounds(spheres: SphereOccluders, cells: _Cells, rows: Ints, cover: Floats) -> tuple[Ints, Ints, Floats]:
     """Which of the given spheres show in one of their cells, and the cells that they cover nearer, and how near."""
     number, cell, low = _rows(cells, rows)
-    least, most = spheres.surface_bounds(np.repeat(rows, number), low, cells.side)
+    least, most = spheres.surface_bounds(np.repeat(rows, number), low, cells.page.side)
     known = cover[cell]
     nearer = np.flatnonzero(least > known)
     shows = np.maximum.reduceat(most > known, np.cumsum(number) - number)
     return rows[shows], cell[nearer], least[nearer]
 
 
-def _cells(spheres: SphereOccluders, projection: Projection) -> _Cells:
-    """A grid by Franklin's formula for deep scenes, ``L = R (0.6 − 0.078 ln D)`` with depth D."""
+def _outline(spheres: SphereOccluders, projection: Projection) -> _Outline:
     center, half = outlines(spheres, projection)
-    low, high = (center - half).min(axis=0), (center + half).max(axis=0)
+    if not len(half):
+        return _Outline(np.full(2, np.inf), np.full(2, -np.inf), half, -np.inf)
+    nearest = float(spheres.nearest_points().max())
+    return _Outline((center - half).min(axis=0), (center + half).max(axis=0), half, nearest)
+
+
+def _page(parts: Sequence[_Outline]) -> _Page:
+    """A grid by Franklin's formula for deep scenes, ``L = R (0.6 − 0.078 ln D)`` with depth D."""
+    half = np.concatenate([part.half for part in parts])
+    low, high = np.min([part.low for part in parts], axis=0), np.max([part.high for part in parts], axis=0)
     radius = float(np.partition(half.ravel(), half.size // 2)[half.size // 2])  # np.median loads masked arrays
     depth = 4 * np.sum(half[:, 0] * half[:, 1]) / max(float(np.prod(high - low)), np.finfo(float).tiny)
     factor = float(np.clip(0.6 - 0.078 * np.log(max(depth, 1.0)), 0.2, 0.6))
-    side = max(radius * factor, (high - low).max() / MOST_CELLS)
-    first = np.floor((center - half - low) / side).astype(np.int64)
-    last = np.floor((center + half - low) / side).astype(np.int64)
-    return _Cells(low, side, int(last.max()) + 1, first, last)
+    page = _Page(low, max(radius * factor, (high - low).max() / MOST_CELLS), 0, 0)
+    wide, tall = (_cell(page, high) + 1).tolist()
+    return page._replace(wide=wide, tall=tall)
+
+
+def _cell(page: _Page, points: Floats) -> Ints:
+    """The columns and rows of cells (..., 2) in which points lie."""
+    return np.asarray(np.floor((points - page.origin) / page.side).astype(np.int64))
+
+
+def _cells(spheres: SphereOccluders, projection: Projection, page: _Page) -> _Cells:
+    center, half = outlines(spheres, projection)
+    return _Cells(page, _cell(page, center - half), _cell(page, center + half))
 
 
 def outlines(spheres: SphereOccluders, projection: Projection) -> tuple[Floats, Floats]:
@@ -144,4 +205,5 @@ def _rows(cells: _Cells, rows: Ints) -> tuple[Ints, Ints, Floats]:
     sphere, place = expand(np.zeros_like(width), width * height)
     row, column = np.divmod(place, width[sphere])
     x, y = low[sphere, 0] + column, low[sphere, 1] + row
-    return width * height, y * cells.wide + x, cells.origin + np.stack([x, y], axis=1) * cells.side
+    page = cells.page
+    return width * height, y * page.wide + x, page.origin + np.stack([x, y], axis=1) * page.side

@@ -4,7 +4,7 @@ import numpy as np
 
 from molviz.arrays import Floats
 from molviz.errors import InputError
-from molviz.model.spheres import Spheres
+from molviz.model.spheres import Balls, Spheres
 from molviz.model.sticks import Sticks
 from molviz.visibility.occluders.sphere import CentralSpheres, ParallelSpheres, SphereOccluders
 from molviz.visibility.occluders.stick import StickOccluders, stick_occluders
@@ -44,11 +44,12 @@ def sticks_in_view(spheres: Spheres, sticks: Sticks, view: View) -> StickOcclude
     return stick_occluders(spheres, turned, view.distance is not None)
 
 
-def refuse_eye_among(spheres: Spheres, view: View) -> None:
+def refuse_eye_among(balls: Balls, view: View) -> None:
     """Raise InputError if the eye of a central view is not in front of all spheres of the molecule's space."""
     if view.distance is None:
         return
-    nearest = float(np.max(eye_coordinates(spheres, view).center[:, 2] + spheres.radius))
+    seen = (eye_coordinates(part, view) for _, part in balls.parts())
+    nearest = max(float(np.max(part.center[:, 2] + part.radius)) for part in seen)
     if nearest >= 0:
         needed = view.distance + nearest
         raise InputError(f"perspective: the eye is not in front of all atoms; expected more than {needed:.2f} Å")

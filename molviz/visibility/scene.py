@@ -1,7 +1,8 @@
 """One scene, any number of views: spheres in general position, their union boundary, and the map or the pieces."""
 
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Callable, Sequence
+from functools import cache, partial
+from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -13,11 +14,12 @@ from molviz.geometry.general_position import (
     ATTEMPTS,
     NONE,
     Degenerate,
+    displaced,
     first_general,
-    general_position,
+    first_of_each,
     shrinkage,
 )
-from molviz.model.spheres import Spheres
+from molviz.model.spheres import Balls, Spheres
 from molviz.model.sticks import NO_STICKS, Sticks
 from molviz.visibility.culling import outlines, possibly_visible
 from molviz.visibility.eye import (
@@ -28,6 +30,7 @@ from molviz.visibility.eye import (
     sticks_in_view,
 )
 from molviz.visibility.map import VisibilityMap, map_in_view
+from molviz.visibility.occluders.sphere import SphereOccluders
 from molviz.visibility.painter import Pieces, painter_pieces
 from molviz.visibility.solids import Solids
 from molviz.visibility.tiles import Each
@@ -51,7 +54,7 @@ class Prepared(NamedTuple):
 
 
 class Scene:
-    """Spheres and sticks to look at. What no view changes, displacement and union boundary, is computed once and kept.
+    """Balls and sticks to look at. What no view changes, displacement and union boundary, is computed once and kept.
 
     Sticks may meet the two balls that they join, and others as wide as their common ball, but nothing else: sticks of
     one ball not outside it, and no others at all.
@@ -61,13 +64,13 @@ class Scene:
     """
 
     def __init__(
-        self, spheres: Spheres, only: View | None = None, sticks: Sticks = NO_STICKS, each: Each = map
+        self, balls: Balls, only: View | None = None, sticks: Sticks = NO_STICKS, each: Each = map
     ) -> None:
-        self.spheres, self.only, self.sticks, self.each = spheres, only, sticks, each
+        self.balls, self.only, self.sticks, self.each = balls, only, sticks, each
         self._prepared: dict[int, Prepared] = {}
 
     def __repr__(self) -> str:
-        return f"<Scene: {len(self.spheres.radius)} spheres>"
+        return f"<Scene: {len(self.balls.radius)} spheres>"
 
     def map(self, view: View) -> tuple[VisibilityMap, Ints]:
         """Return the visibility map and the row of each of its spheres.
@@ -83,7 +86,7 @@ class Scene:
 
     def _in_general_position(self, view: View, query: Callable[[Prepared, View], T]) -> T:
         """The query's answer, displacing again as long as the spheres prove degenerate."""
-        refuse_eye_among(self.spheres, view)
+        refuse_eye_among(self.balls, view)
         try:
             return self._first_general(lambda prepared: query(prepared, view))
         except InternalError:
@@ -108,44 +111,51 @@ class Scene:
 
     def _attempt(self, attempt: int, times: Ints) -> Prepared:
         if attempt not in self._prepared:
-            self._prepared[attempt] = _prepare(self.spheres, self.sticks, attempt, self.only)
+            self._prepared[attempt] = _prepare(self.balls, self.sticks, attempt, self.only)
         prepared = self._prepared[attempt]
         less = NARROWER * (WIDER_STEPS ** times[prepared.stick] - 1.0)
         offset = prepared.sticks.offset * (1.0 - less)[:, None]
         return prepared._replace(sticks=prepared.sticks._replace(offset=offset))
 
 
-def _prepare(spheres: Spheres, sticks: Sticks, attempt: int, only: View | None) -> Prepared:
-    displaced, row = general_position(spheres, attempt)
+def _prepare(balls: Balls, sticks: Sticks, attempt: int, only: View | None) -> Prepared:
+    row = first_of_each(balls)
     radius, offset = sticks.radius * shrinkage(attempt), sticks.offset * (1.0 - attempt * NARROWER)
-    stick = sticks.rows_among(row, len(spheres.radius))
-    sticks = sticks._replace(radius=radius, offset=offset).among(row, len(spheres.radius))
-    if only is not None:
-        keep = _wanted(displaced, sticks, only)
-        sticks = sticks.among(keep, len(row))
-        displaced, row = displaced.take(keep), row[keep]
-    return Prepared(union_boundary(displaced), row, sticks, stick)
+    stick = sticks.rows_among(row, len(balls.radius))
+    sticks = sticks._replace(radius=radius, offset=offset).among(row, len(balls.radius))
+
+    def spheres_at(rows: Ints) -> Spheres:
+        return displaced(balls.take(row[rows]), row[rows], attempt)
+
+    parts = [np.arange(first, last) for first, last in pairwise(np.searchsorted(row, balls.cuts).tolist())]
+    if only is None:
+        return Prepared(union_boundary(spheres_at(np.arange(len(row)))), row, sticks, stick)
+    keep = _wanted(spheres_at, parts, sticks, only)
+    return Prepared(union_boundary(spheres_at(keep)), row[keep], sticks.among(keep, len(row)), stick)
 
 
-def _wanted(spheres: Spheres, sticks: Sticks, view: View) -> Ints:
-    """The spheres that may be seen, and all with sticks."""
-    wanted = np.zeros(len(spheres.radius), dtype=bool)
+def _wanted(spheres_at: Callable[[Ints], Spheres], parts: Sequence[Ints], sticks: Sticks, view: View) -> Ints:
+    """The spheres that may be seen, and all with sticks, ascending; ``parts`` are rows of those that lie together."""
+    wanted = np.zeros(sum(map(len, parts)), dtype=bool)
     wanted[sticks.first] = wanted[sticks.second] = True
     if not wanted.all():
-        wanted[_possibly_visible(spheres, view)] = True
+        wanted[_possibly_visible(spheres_at, parts, view)] = True
     return np.flatnonzero(wanted)
 
 
-def _possibly_visible(spheres: Spheres, view: View) -> Ints:
-    occluders = occluders_of(eye_coordinates(spheres, view), view)
-    return np.flatnonzero(possibly_visible(occluders, projection_of(view)))
+def _possibly_visible(spheres_at: Callable[[Ints], Spheres], parts: Sequence[Ints], view: View) -> Ints:
+    def part(rows: Ints) -> SphereOccluders:
+        return occluders_of(eye_coordinates(spheres_at(rows), view), view)
+
+    made = [cache(partial(part, rows)) if len(parts) == 1 else partial(part, rows) for rows in parts]
+    return possibly_visible(made, projection_of(view))
 
 
 def _map(
     prepared: Prepared, view: View, label: Ints | None = None, each: Each = map
 ) -> tuple[VisibilityMap, Ints]:
     spheres, sticks = prepared.boundary.spheres, prepared.sticks
-    wanted = _wanted(spheres, sticks, view)
+    wanted = _wanted(spheres.take, [np.arange(len(prepared.row))], sticks, view)
     seen = eye_coordinates(spheres.take(wanted), view)
     solids = Solids(
         occluders_of(seen, view), sticks_in_view(seen, sticks.among(wanted, len(spheres.radius)), view)
@@ -159,7 +169,7 @@ def _pieces(prepared: Prepared, view: View) -> tuple[Pieces, Ints]:
     spheres, sticks = prepared.boundary.spheres, prepared.sticks
     seen = eye_coordinates(spheres, view)
     solids = Solids(occluders_of(seen, view), sticks_in_view(seen, sticks, view))
-    wanted = _wanted(spheres, sticks, view)
+    wanted = _wanted(spheres.take, [np.arange(len(prepared.row))], sticks, view)
     return painter_pieces(prepared.boundary, solids, wanted, view, projection_of(view)), prepared.row
 
 
@@ -172,17 +182,22 @@ def labelled_map(spheres: Spheres, label: Ints, view: View) -> VisibilityMap:
     def prepared(attempt: int) -> Prepared:
         if attempt:
             return _prepare(spheres, NO_STICKS, attempt - 1, view)
-        keep = _possibly_visible(spheres, view)
+        keep = _possibly_visible(spheres.take, [np.arange(len(label))], view)
         return Prepared(union_boundary(spheres.take(keep)), keep, NO_STICKS, NONE)
 
     return first_general(lambda attempt: _map(prepared(attempt), view, label)[0])
 
 
-def extent(spheres: Spheres, view: View) -> tuple[Floats, Floats]:
-    """Return the corners (2,), (2,) of the bounding box of all spheres' images on the page, in ångström.
+def extent(balls: Balls, view: View) -> tuple[Floats, Floats]:
+    """Return the corners (2,), (2,) of the bounding box of all balls' images on the page, in ångström.
 
     Raises InputError if an eye is not in front of all of them.
     """
-    refuse_eye_among(spheres, view)
+    refuse_eye_among(balls, view)
+    low, high = zip(*(_extent(part, view) for _, part in balls.parts()), strict=True)
+    return np.min(low, axis=0), np.max(high, axis=0)
+
+
+def _extent(spheres: Spheres, view: View) -> tuple[Floats, Floats]:
     center, half = outlines(occluders_of(eye_coordinates(spheres, view), view), projection_of(view))
     return (center - half).min(axis=0), (center + half).max(axis=0)

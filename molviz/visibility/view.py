@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from molviz.arrays import Floats
-from molviz.model.spheres import Spheres
+from molviz.model.spheres import Balls, Spheres, box_of
 from molviz.vectors import length, transformed
 
 EQUAL_MOMENTS = 1e-4  # of the largest: moments closer than that leave the axes to rounding
@@ -45,32 +45,42 @@ class View:
         return Spheres(transformed(spheres.center - self.center, self.rotation), spheres.radius)
 
 
-def middle(spheres: Spheres) -> Floats:
+def middle(balls: Balls) -> Floats:
     """Return the middle of the bounding box of the balls (3,)."""
-    low, high = spheres.box()
+    low, high = box_of(balls)
     return np.asarray((low + high) / 2)
 
 
-def file_axes(spheres: Spheres, distance: float | None = None) -> View:
+def file_axes(balls: Balls, distance: float | None = None) -> View:
     """Return the view along the file's own −z, x to the right."""
-    return View(np.eye(3), middle(spheres), distance)
+    return View(np.eye(3), middle(balls), distance)
 
 
-def principal_axes(spheres: Spheres, distance: float | None = None) -> View:
+def principal_axes(balls: Balls, distance: float | None = None) -> View:
     """Return the view with the longest principal axis of the centres across the page and the shortest towards the eye.
 
     Signs, which the axes leave open, are chosen by the third moments, so that the same molecule looks the same however
     it was turned; a right-handed frame in any case. Where moments are equal, as of a cube, the file's axes decide.
     """
-    offset = spheres.center - spheres.center.mean(axis=0)
-    rotation = _principal_frame(np.array([[np.sum(one * other) for other in offset.T] for one in offset.T]))
-    for axis in range(2):
-        along = transformed(offset, rotation[axis, None])[:, 0]
-        skew = np.sum(along**3)
-        if skew < -SKEW * np.sum(np.abs(along) ** 3):
-            rotation[axis] *= -1
+    mean = np.sum([np.sum(part.center, axis=0) for _, part in balls.parts()], axis=0) / len(balls.radius)
+    moments = [_moments(part.center - mean) for _, part in balls.parts()]
+    rotation = _principal_frame(np.sum(moments, axis=0))
+    skews = [_skews(part.center - mean, rotation[:2]) for _, part in balls.parts()]
+    skew, size = np.sum(skews, axis=0)
+    rotation[:2][skew < -SKEW * size] *= -1
     rotation[2] = np.cross(rotation[0], rotation[1])
-    return View(rotation, middle(spheres), distance)
+    return View(rotation, middle(balls), distance)
+
+
+def _moments(offset: Floats) -> Floats:
+    """The second moments (3, 3) of offsets (m, 3) from the mean."""
+    return np.array([[np.sum(one * other) for other in offset.T] for one in offset.T])
+
+
+def _skews(offset: Floats, axes: Floats) -> Floats:
+    """The third moments (2, k) along each of the axes (k, 3): with signs, and of sizes."""
+    along = transformed(offset, axes)
+    return np.array([[np.sum(column**3), np.sum(np.abs(column) ** 3)] for column in np.ascontiguousarray(along.T)]).T
 
 
 def _principal_frame(moments: Floats) -> Floats:
