@@ -123,9 +123,10 @@ def test_places_and_balls_are_those_of_the_atoms() -> None:
     for rows in (np.array([7, 0, 3, 3]), np.array([], dtype=np.int64)):
         for one, other in zip(balls.take(rows), expected.take(rows), strict=True):
             np.testing.assert_array_equal(one, other)
-    for (first, part), size in zip(balls.parts(), (3, 3, 4), strict=True):
-        np.testing.assert_array_equal(part.radius, expected.radius[first : first + size])
-        np.testing.assert_array_equal(part.center, expected.center[first : first + size])
+    for part, (first, last) in zip(balls.parts(), ((0, 3), (3, 6), (6, 10)), strict=True):
+        np.testing.assert_array_equal(part.radius, expected.radius[first:last])
+        np.testing.assert_array_equal(part.center, expected.center[first:last])
+    assert balls.cuts.tolist() == [0, 3, 6, 10, 10] and expected.cuts.tolist() == [0, 10]
     for one, other in zip(box_of(balls), expected.box(), strict=True):
         np.testing.assert_array_equal(one, other)
 

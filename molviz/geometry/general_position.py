@@ -77,7 +77,7 @@ def nudged(spheres: Spheres, times: Ints) -> Spheres:
 
 def first_of_each(balls: Balls) -> Ints:
     """Return the rows of n balls less those that are equal to an earlier one: equal ones have equal sums of columns."""
-    total = np.concatenate([np.empty(0), *(_total(part) for _, part in balls.parts())])
+    total = np.concatenate([np.empty(0), *(_total(part) for part in balls.parts())])
     order = np.argsort(total, kind="stable")
     again = np.flatnonzero(total[order][1:] == total[order][:-1])
     rows = distinct(order[np.append(again, again + 1)])

@@ -1,4 +1,4 @@
-"""Copies of the atoms of one molecule, moved by operators: what most of them are called is known only when asked."""
+"""Copies of the atoms of one molecule, moved by operators: where and what they are is told only when it is asked."""
 
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
@@ -117,7 +117,7 @@ class Assembled(Molecule):
         return Molecule(self.name, **columns, stated_bonds=self.stated_bonds.take(rows, len(self)))
 
     def places(self) -> Iterator[tuple[int, Floats]]:
-        """Yield where the atoms are, copy by copy: the row of the first (without atoms: none), and (m, 3) ångström."""
+        """Yield where the atoms of each copy that has any are: the row of the first, and (m, 3) ångström."""
         return self._columns.places()
 
     def filtered(self, keep: Bools) -> Molecule:
@@ -170,7 +170,7 @@ class BallsOfCopies(NamedTuple):
         """Return all of them."""
         return Spheres(self.molecule.position, self.radius)
 
-    def parts(self) -> Iterator[tuple[int, Spheres]]:
-        """Yield them copy by copy: the row of the first, and all of the copy."""
+    def parts(self) -> Iterator[Spheres]:
+        """Yield the balls of each copy that has any."""
         for first, position in self.molecule.places():
-            yield first, Spheres(position, self.radius[first : first + len(position)])
+            yield Spheres(position, self.radius[first : first + len(position)])

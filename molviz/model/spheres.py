@@ -25,8 +25,8 @@ class Balls(Protocol):
     def whole(self) -> "Spheres":
         """Return all of them."""
 
-    def parts(self) -> Iterator[tuple[int, "Spheres"]]:
-        """Yield the parts that have any: the row of the first ball, and all of the part."""
+    def parts(self) -> Iterator["Spheres"]:
+        """Yield the balls of each part that has any."""
 
 
 class Spheres(NamedTuple):
@@ -51,9 +51,9 @@ class Spheres(NamedTuple):
         """Return the spheres themselves."""
         return self
 
-    def parts(self) -> Iterator[tuple[int, "Spheres"]]:
+    def parts(self) -> Iterator["Spheres"]:
         """Yield all of them."""
-        yield 0, self
+        yield self
 
     def enlarged(self, scale: float, probe: float) -> "Spheres":
         """Return the spheres with ``scale`` times their radii plus ``probe`` ångström."""
@@ -67,5 +67,5 @@ class Spheres(NamedTuple):
 
 def box_of(balls: Balls) -> tuple[Floats, Floats]:
     """Return the corners (3,), (3,) of the bounding box of n ≥ 1 balls."""
-    low, high = zip(*(part.box() for _, part in balls.parts()), strict=True)
+    low, high = zip(*(part.box() for part in balls.parts()), strict=True)
     return np.min(low, axis=0), np.max(high, axis=0)

@@ -133,9 +133,10 @@ def _loaded(reading: Reading, number: int, wanted: InputOptions) -> Loaded:
         enlarged = Spheres(molecule.position, bare).enlarged(wanted.scale_radii, wanted.cavities)
         rows = _lining(enlarged, wanted.cavities, reading.source)
         molecule, bare = molecule.take(rows), bare[rows]
-    radius = wanted.scale_radii * bare + wanted.probe
-    count, read_ = len(reading.models), len(whole)
-    loaded = Loaded(reading.source, reading.format, number, count, read_, molecule, radius, bare, reading.warnings)
+    loaded = Loaded(
+        reading.source, reading.format, number, len(reading.models), len(whole), molecule,
+        wanted.scale_radii * bare + wanted.probe, bare, reading.warnings,
+    )  # fmt: skip
     warnings += _far_apart(loaded.balls) + _without_water(whole, molecule, wanted) + _without_radius(whole, wanted)
     return replace(loaded, warnings=reading.warnings + tuple(f"{reading.source}: {warning}" for warning in warnings))
 
@@ -223,7 +224,7 @@ def _without_radius(whole: Molecule, wanted: InputOptions) -> tuple[str, ...]:
 
 
 def _far_apart(balls: Balls) -> tuple[str, ...]:
-    low, high = zip(*((part.center.min(axis=0), part.center.max(axis=0)) for _, part in balls.parts()), strict=True)
+    low, high = zip(*((part.center.min(axis=0), part.center.max(axis=0)) for part in balls.parts()), strict=True)
     extent = float(np.max(np.max(high, axis=0) - np.min(low, axis=0)))
     if extent <= FAR_APART * float(balls.radius.max()):
         return ()

@@ -48,7 +48,7 @@ def refuse_eye_among(balls: Balls, view: View) -> None:
     """Raise InputError if the eye of a central view is not in front of all spheres of the molecule's space."""
     if view.distance is None:
         return
-    seen = (eye_coordinates(part, view) for _, part in balls.parts())
+    seen = (eye_coordinates(part, view) for part in balls.parts())
     nearest = max(float(np.max(part.center[:, 2] + part.radius)) for part in seen)
     if nearest >= 0:
         needed = view.distance + nearest

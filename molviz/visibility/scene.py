@@ -143,19 +143,24 @@ def _wanted(spheres_at: Callable[[Ints], Spheres], parts: Sequence[Ints], sticks
     return np.flatnonzero(wanted)
 
 
+def _wanted_of_all(spheres: Spheres, sticks: Sticks, view: View) -> Ints:
+    """The same of spheres that are kept."""
+    return _wanted(spheres.take, [np.arange(len(spheres.radius))], sticks, view)
+
+
 def _possibly_visible(spheres_at: Callable[[Ints], Spheres], parts: Sequence[Ints], view: View) -> Ints:
     def part(rows: Ints) -> SphereOccluders:
         return occluders_of(eye_coordinates(spheres_at(rows), view), view)
 
-    made = [cache(partial(part, rows)) if len(parts) == 1 else partial(part, rows) for rows in parts]
-    return possibly_visible(made, projection_of(view))
+    kept = cache if len(parts) == 1 else lambda made: made  # each is made twice, and one is no larger than all
+    return possibly_visible([kept(partial(part, rows)) for rows in parts], projection_of(view))
 
 
 def _map(
     prepared: Prepared, view: View, label: Ints | None = None, each: Each = map
 ) -> tuple[VisibilityMap, Ints]:
     spheres, sticks = prepared.boundary.spheres, prepared.sticks
-    wanted = _wanted(spheres.take, [np.arange(len(prepared.row))], sticks, view)
+    wanted = _wanted_of_all(spheres, sticks, view)
     seen = eye_coordinates(spheres.take(wanted), view)
     solids = Solids(
         occluders_of(seen, view), sticks_in_view(seen, sticks.among(wanted, len(spheres.radius)), view)
@@ -169,7 +174,7 @@ def _pieces(prepared: Prepared, view: View) -> tuple[Pieces, Ints]:
     spheres, sticks = prepared.boundary.spheres, prepared.sticks
     seen = eye_coordinates(spheres, view)
     solids = Solids(occluders_of(seen, view), sticks_in_view(seen, sticks, view))
-    wanted = _wanted(spheres.take, [np.arange(len(prepared.row))], sticks, view)
+    wanted = _wanted_of_all(spheres, sticks, view)
     return painter_pieces(prepared.boundary, solids, wanted, view, projection_of(view)), prepared.row
 
 
@@ -182,7 +187,7 @@ def labelled_map(spheres: Spheres, label: Ints, view: View) -> VisibilityMap:
     def prepared(attempt: int) -> Prepared:
         if attempt:
             return _prepare(spheres, NO_STICKS, attempt - 1, view)
-        keep = _possibly_visible(spheres.take, [np.arange(len(label))], view)
+        keep = _wanted_of_all(spheres, NO_STICKS, view)
         return Prepared(union_boundary(spheres.take(keep)), keep, NO_STICKS, NONE)
 
     return first_general(lambda attempt: _map(prepared(attempt), view, label)[0])
@@ -194,7 +199,7 @@ def extent(balls: Balls, view: View) -> tuple[Floats, Floats]:
     Raises InputError if an eye is not in front of all of them.
     """
     refuse_eye_among(balls, view)
-    low, high = zip(*(_extent(part, view) for _, part in balls.parts()), strict=True)
+    low, high = zip(*(_extent(part, view) for part in balls.parts()), strict=True)
     return np.min(low, axis=0), np.max(high, axis=0)
 
 

@@ -62,10 +62,10 @@ def principal_axes(balls: Balls, distance: float | None = None) -> View:
     Signs, which the axes leave open, are chosen by the third moments, so that the same molecule looks the same however
     it was turned; a right-handed frame in any case. Where moments are equal, as of a cube, the file's axes decide.
     """
-    mean = np.sum([np.sum(part.center, axis=0) for _, part in balls.parts()], axis=0) / len(balls.radius)
-    moments = [_moments(part.center - mean) for _, part in balls.parts()]
+    mean = np.sum([np.sum(part.center, axis=0) for part in balls.parts()], axis=0) / len(balls.radius)
+    moments = [_moments(part.center - mean) for part in balls.parts()]
     rotation = _principal_frame(np.sum(moments, axis=0))
-    skews = [_skews(part.center - mean, rotation[:2]) for _, part in balls.parts()]
+    skews = [_skews(part.center - mean, rotation[:2]) for part in balls.parts()]
     skew, size = np.sum(skews, axis=0)
     rotation[:2][skew < -SKEW * size] *= -1
     rotation[2] = np.cross(rotation[0], rotation[1])
