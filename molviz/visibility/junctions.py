@@ -5,7 +5,6 @@ from typing import NamedTuple
 import numpy as np
 
 from molviz.arrays import Bools, Floats, Ints
-from molviz.geometry.general_position import Degenerate
 from molviz.geometry.intervals import TURN
 from molviz.geometry.rows import expand, ordered
 from molviz.threads import both
@@ -74,12 +73,14 @@ def _enter(entered: Ints, name: Ints, vertex: Ints, solids: Solids) -> None:
 def _junctions(
     named: NamedArcs, curves: Curves, solids: Solids, central: bool, name: Ints, vertex: Ints, fraction: float
 ) -> _Junctions:
-    """Where the arcs that end in a TEE or a HALF, at their starts (fraction 0) or ends (1), meet the contour there."""
+    """Where the arcs that end in a TEE or a HALF, at their starts (fraction 0) or ends (1), meet the contour there.
+
+    In special position some meet no visible arc of it: they end nowhere, and no map closes there.
+    """
     kind, count = name[:, 0] >> 1, solids.balls
     rows = np.flatnonzero((kind == TEE) | (kind == HALF))
     above = np.where(kind[rows] == TEE, name[rows, 2], name[rows, 1] + (name[rows, 0] & 1))
-    if np.any(above < 0):
-        raise Degenerate(vertex[rows[above < 0]])
+    rows, above = rows[above >= 0], above[above >= 0]
     points = curves.at(named.curve[rows], named.start[rows] + fraction * named.sweep[rows])
     angle = np.empty(len(rows))
     line = above >= count
@@ -89,10 +90,8 @@ def _junctions(
     angle[kind[rows] == HALF] = np.pi / 2
     contour = np.flatnonzero(curves.is_contour())
     snap = np.where(_beside_centres(curves, solids, named.curve[rows], above), SNAP_BESIDE, SNAP)
-    arc, offset, exists = _located(named, contour[above], angle, snap)
-    if not exists.all():
-        raise Degenerate(vertex[rows[~exists]])
-    return _Junctions(arc, offset, vertex[rows])
+    known, arc, offset = _located(named, contour[above], angle, snap)
+    return _Junctions(arc, offset, vertex[rows[known]])
 
 
 def _beside_centres(curves: Curves, solids: Solids, curve: Ints, above: Ints) -> Bools:
@@ -109,11 +108,8 @@ def _beside_centres(curves: Curves, solids: Solids, curve: Ints, above: Ints) ->
     return beside
 
 
-def _located(named: NamedArcs, curve: Ints, angle: Floats, snap: Floats) -> tuple[Ints, Floats, Bools]:
-    """The arc of each given curve on which the angle lies, or misses it by ``snap``, and the offset from its start.
-
-    And whether there is one.
-    """
+def _located(named: NamedArcs, curve: Ints, angle: Floats, snap: Floats) -> tuple[Ints, Ints, Floats]:
+    """The rows for which an arc of the given curve has the angle, or misses it by ``snap``; it, and offsets there."""
     begin, end = (np.searchsorted(named.curve, curve, side=side) for side in ("left", "right"))
     row, arc = expand(begin, end)
     offset = np.mod(angle[row] - named.start[arc], TURN)
@@ -122,12 +118,12 @@ def _located(named: NamedArcs, curve: Ints, angle: Floats, snap: Floats) -> tupl
     order = ordered(row, -outside)
     best = np.full(len(curve), -1)
     best[row[order]] = order  # the last one written is the closest
-    exists = (best >= 0) & (np.append(outside, np.inf)[best] <= snap)
-    if not exists.all():
-        return best, angle, exists
+    known = np.flatnonzero(best >= 0)
+    known = known[outside[best[known]] <= snap[known]]
+    best = best[known]
     beyond = offset[best] - sweep[best]
-    inside = np.where(beyond <= 0, offset[best], np.where(beyond < snap, sweep[best], 0.0))
-    return arc[best], inside, exists
+    inside = np.where(beyond <= 0, offset[best], np.where(beyond < snap[known], sweep[best], 0.0))
+    return known, arc[best], inside
 
 
 def _split(named: NamedArcs, origin: Ints, target: Ints, tees: _Junctions) -> CurveArcs:
