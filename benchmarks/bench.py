@@ -4,8 +4,9 @@
 
 Every row is the best of some runs: seconds on the wall and of the processors (all threads), how often the latter holds
 ``import numpy`` of the same run, and the peak of memory. Files are drawn and measured besides the samples; RasMol
-(Debian) draws PDB files, voronota-lt (``pip install voronotalt``) measures the same balls. ``--quick`` leaves out what
-takes minutes. On a busy machine compare the processors' seconds, not those on the wall.
+(Debian) draws PDB files, voronota-lt measures the same balls, xyzrender, cinemol and hofmann draw small molecules with
+their bonds (``pip install 'molviz[bench]'``). ``--quick`` leaves out what takes minutes. On a busy machine compare the
+processors' seconds, not those on the wall.
 """
 
 import argparse
@@ -25,7 +26,7 @@ import numpy as np
 
 SAMPLES = Path(__file__).parent.parent / "samples"
 RASMOL = Path("/usr/lib/rasmol/rasmol.32")  # of Debian's package: the program without a window, if asked so
-PEERS = ("numpy", "click", "svgwrite", "gemmi", "voronotalt")
+PEERS = ("numpy", "click", "svgwrite", "gemmi", "voronotalt", "xyzrender", "cinemol", "hofmann")
 SIZES = [1000, 10_000, 100_000, 1_000_000]  # atoms, of which exponents are told
 VORONOTA = """
 import sys, numpy, voronotalt
@@ -47,6 +48,23 @@ from globule import globule
 spheres = globule(int(sys.argv[1]))
 numpy.savetxt(sys.argv[2], numpy.column_stack([spheres.center, spheres.radius]), "%.4f")
 """
+HOFMANN = """
+import sys, numpy
+from hofmann import Frame, StructureScene, default_atom_style, default_bond_specs
+rows = [line.split() for line in open(sys.argv[1]).read().splitlines()[2:]]
+kinds, places = [row[0] for row in rows], numpy.array([row[1:4] for row in rows], dtype=float)
+styles = {kind: default_atom_style(kind) for kind in kinds}
+StructureScene(kinds, [Frame(places)], styles, default_bond_specs(kinds)).render_mpl(sys.argv[2])
+"""
+MOL = """
+import sys, molviz
+molecule = molviz.read(sys.argv[1]).models[0]
+lines = ["", "", "", f"{len(molecule):3}{len(molecule.bonds):3}  0  0  0  0  0  0  0  0999 V2000"]
+for (x, y, z), element in zip(molecule.position, molecule.element):
+    lines.append(f"{x:10.4f}{y:10.4f}{z:10.4f} {element:<3} 0  0  0  0  0  0  0  0  0  0  0  0")
+lines += [f"{first + 1:3}{second + 1:3}  1  0" for first, second in molecule.bonds.tolist()]
+open(sys.argv[2], "w").write(chr(10).join([*lines, "M  END", "$$$$", ""]))
+"""  # cinemol reads nothing else
 
 
 class Run(NamedTuple):
@@ -110,6 +128,23 @@ def start(bench: Bench) -> None:
     bench.row("`molviz --help`", [sys.executable, "-m", "molviz", "--help"])
     bench.drawn("caffeine, flat, SVG", SAMPLES / "caffeine.xyz", "svg", "--style", "flat")
     bench.drawn("caffeine, flat, PS", SAMPLES / "caffeine.xyz", "ps", "--style", "flat")
+
+
+def bonds(bench: Bench, name: str) -> None:
+    """A small molecule as balls and sticks, by its peers as well."""
+    source, mol, target = SAMPLES / f"{name}.xyz", bench.folder / f"{name}.sdf", bench.folder / "peer.svg"
+    subprocess.run([sys.executable, "-c", MOL, str(source), str(mol)], check=True)
+    scripts = Path(sys.executable).parent
+    peers = {
+        "xyzrender": [str(scripts / "xyzrender"), str(source), "-o", str(target)],
+        "cinemol": [str(scripts / "cinemol"), "-hs", str(mol), str(target)],
+        "hofmann": [sys.executable, "-c", HOFMANN, str(source), str(target)],
+    }
+    there = {peer: command for peer, command in peers.items() if importlib.util.find_spec(peer)}
+    runs = [bench.row(f"{name}, {peer}, balls and sticks, SVG", command, target) for peer, command in there.items()]
+    fastest = min(runs, key=lambda run: run.cpu, default=None)
+    what = f"{name}, flat, balls and sticks, SVG" + (" (by the fastest's)" if fastest else "")
+    bench.drawn(what, source, "svg", "--rep", "ball-and-stick", "--style", "flat", peer=fastest)
 
 
 def file(bench: Bench, source: Path) -> None:
@@ -211,9 +246,11 @@ def main() -> None:
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # a user's modules are compiled once, not with every start
     print(f"# Measured by `make bench`\n\n{machine()}\n")
     print("| what | wall, s | processors, s | × numpy | MB | bytes | by the peer's |\n|---|---|---|---|---|---|---|")
-    with tempfile.TemporaryDirectory() as name:
-        bench = Bench(Path(name), options.repeat)
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(Path(folder), options.repeat)
         start(bench)
+        for name in ("caffeine", "c60"):
+            bonds(bench, name)
         for source in options.files or [SAMPLES / "1tii.pdb.gz"]:
             file(bench, source)
         scenes(bench, options.quick)
