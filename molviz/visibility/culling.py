@@ -18,8 +18,7 @@ from molviz.visibility.projection import Projection, images_of
 MOST_CELLS = 2048  # per axis
 BLOCK_ROWS = 1 << 15  # (sphere, cell) rows at a time: their columns stay in cache
 GROUP = 32  # blocks at a time
-CLUSTER = 16  # cells: some hundreds of atoms
-
+CLUSTER = 16  # cells: from a dozen atoms of a virus to hundreds of a small protein
 
 Part: TypeAlias = Callable[[], SphereOccluders]
 
